@@ -3,9 +3,11 @@
 
 #include "analysis/balance/momentum_balance.hpp"
 #include "analysis/balance/partitioned_balance.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/core/species.hpp"
 
-#include <string>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace grseg {
@@ -19,11 +21,10 @@ namespace grseg {
 ///   rate_X_a ... residual_X_a terms of the balance (momentum_balance.hpp) and what they leave
 ///   change_X_a                what the rates sample
 ///   phi_L ... drag_rate       driving_forces.hpp, of two species
+/// Without a layer the names alone count.
 template <int D>
-std::vector<std::string> balance_columns(const SpeciesList& species);
-/// The values of a layer under these columns.
-template <int D>
-std::vector<double> balance_row(const MomentumBalance<D>& balance, std::size_t layer);
+std::vector<Cell> balance_cells(const MomentumBalance<D>& balance, const SpeciesList& species,
+                                std::optional<std::size_t> layer);
 
 /// The columns that --partition adds behind them. For each RULE, as it is typed, and X, a as above
 ///   contact_X_a@RULE, interaction_X_a@RULE            C and beta (partitioned_balance.hpp)
@@ -32,11 +33,8 @@ std::vector<double> balance_row(const MomentumBalance<D>& balance, std::size_t l
 ///   N_X_a        the contact force on the grains of X, which is C + beta + base under every rule
 ///   p_zero       of two species: p*, the share at which the contact push changes its sign
 template <int D>
-std::vector<std::string> partition_columns(const SpeciesList& species,
-                                           const std::vector<PartitionRule>& rules);
-/// The values of a layer under these columns.
-template <int D>
-std::vector<double> partition_row(const MomentumBalance<D>& balance,
-                                  const PartitionedBalance<D>& contacts, std::size_t layer);
+std::vector<Cell> partition_cells(const MomentumBalance<D>& balance,
+                                  const PartitionedBalance<D>& contacts, const SpeciesList& species,
+                                  std::optional<std::size_t> layer);
 
 }  // namespace grseg

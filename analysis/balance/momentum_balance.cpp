@@ -19,13 +19,6 @@ std::size_t index(Species species)
 }  // namespace
 
 template <int D>
-SpeciesMomentum<D>& SpeciesMomentum<D>::operator*=(double factor)
-{
-  std::apply([&](auto... member) { ((this->*member *= factor), ...); }, members);
-  return *this;
-}
-
-template <int D>
 Vector<D> MomentumBalance<D>::Instant::at(std::size_t layer, Species species) const
 {
   return layer < momentum.size() ? momentum[layer][index(species)] : Vector<D>(Vector<D>::Zero());
@@ -153,9 +146,8 @@ void MomentumBalance<D>::merge(const MomentumBalance& later)
 template <int D>
 SpeciesMomentum<D> MomentumBalance<D>::mean(std::size_t layer, Species species) const
 {
-  auto mean = sums_[layer][index(species)];
-  mean *= 1 / (static_cast<double>(frames_) * layers_.volume(layer));
-  return mean;
+  const double factor = 1 / (static_cast<double>(frames_) * layers_.volume(layer));
+  return sums_[layer][index(species)] * factor;
 }
 
 template <int D>
@@ -166,8 +158,6 @@ Vector<D> MomentumBalance<D>::change(std::size_t layer, Species species) const
   return gained / ((last_->time - first_->time) * layers_.volume(layer));
 }
 
-template struct SpeciesMomentum<2>;
-template struct SpeciesMomentum<3>;
 template class MomentumBalance<2>;
 template class MomentumBalance<3>;
 

@@ -38,7 +38,6 @@ struct SpeciesMomentum {
       &SpeciesMomentum::contact_stress, &SpeciesMomentum::momentum_flux, &SpeciesMomentum::rate,
       &SpeciesMomentum::gravity, &SpeciesMomentum::contact, &SpeciesMomentum::kinetic,
       &SpeciesMomentum::interaction, &SpeciesMomentum::base, &SpeciesMomentum::force);
-  SpeciesMomentum& operator*=(double factor);
 };
 
 /// Momentum balance of each species by coarse graining over height (Goldhirsch 2010; Weinhart et

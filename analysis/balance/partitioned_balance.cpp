@@ -158,10 +158,7 @@ PartitionedForces<D> PartitionedBalance<D>::mean(std::size_t layer, Species spec
   const auto& sums = sums_[layer];
   auto mean = sums.unmixed[number(species)];
   mean += sums.mixed[rule * species_ + number(species)];
-  const double factor = per_frame_and_volume(layer);
-  mean.stress *= factor;
-  for (auto* force : {&mean.contact, &mean.interaction, &mean.base}) *force *= factor;
-  return mean;
+  return mean * per_frame_and_volume(layer);
 }
 
 template <int D>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/check/check_lines.hpp"
+#include "analysis/check/checks.hpp"
 #include "formats/trajectory/layout_check.hpp"
 #include "formats/trajectory/reader.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "analysis/check/check_lines.hpp"
 #include "analysis/check/checks.hpp"
 #include "analysis/check/contact_violations.hpp"
 #include "analysis/check/laws_of_motion.hpp"

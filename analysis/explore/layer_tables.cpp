@@ -7,7 +7,7 @@
 #include "analysis/frames/sums.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/structure_by_layer.hpp"
-#include "analysis/segregation/segregation_table.hpp"
+#include "analysis/segregation/rates.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -175,12 +175,8 @@ Json micro_table(FrameLoop& loop)
         loop.sum<D>(window, {.velocity = false, .contacts = true},
                     StructureByLayer<D>(layers, GrainArea::clipped, constants.friction));
     for (std::size_t layer = 0; layer < micro.layers(); ++layer) {
-      const SumsRow<D> row{window.begin,
-                           window.end,
-                           layers.bottom(layer),
-                           layers.top(layer),
-                           static_cast<double>(window.frames.size()),
-                           layers.volume(layer),
+      const SumsRow<D> row{{window.begin, window.end, layers.bottom(layer), layers.top(layer),
+                            static_cast<double>(window.frames.size()), layers.volume(layer)},
                            micro.mean(layer),
                            {},
                            micro.heights().bed};
@@ -205,18 +201,12 @@ Json balance_table(FrameLoop& loop)
           : "Momentum balance of each species; contacts of two species cut at the contact point.",
       {"gravity_L_y" + unit, "contact_L_y" + unit, "interaction_L_y" + unit, "base_L_y" + unit,
        "kinetic_L_y" + unit, "push" + unit, "push_kinetic" + unit, "drag" + unit});
-  const auto columns = balance_columns<D>(species);
   for (const auto& window : loop.windows()) {
     const auto [balance] = loop.sum<D>(
         window, {.velocity = true, .contacts = true, .force = true},
         MomentumBalance<D>(layers, kernel, run.gravity<D>(), run.step(), species.size()));
-    for (std::size_t layer = 0; layer < balance.layers(); ++layer) {
-      const auto values = balance_row(balance, layer);
-      std::vector<Cell> cells;
-      cells.reserve(columns.size());
-      for (std::size_t k = 0; k < columns.size(); ++k) cells.push_back({columns[k], values[k]});
-      table.add(window, layer, cells);
-    }
+    for (std::size_t layer = 0; layer < balance.layers(); ++layer)
+      table.add(window, layer, balance_cells(balance, species, layer));
   }
   return table.take(layers);
 }

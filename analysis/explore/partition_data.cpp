@@ -2,9 +2,9 @@
 #include "analysis/explore/partition_data.hpp"
 
 #include "analysis/fit/data_doubts.hpp"
+#include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/partition_scan.hpp"
-#include "analysis/fit/population.hpp"
 #include "analysis/frames/layer_table.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/estimators.hpp"
 
-#include "analysis/frames/sums.hpp"
-#include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/least_squares.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
@@ -32,8 +30,7 @@ double weighted_mean(const std::vector<FitPoint>& points, const Of& of)
   return sum / weights;
 }
 
-}  // namespace
-
+/// All estimators, from the four numbers that they follow from.
 Estimators estimators_from(double b, double ln_s, double k, double a)
 {
   const double s = std::exp(ln_s);
@@ -44,6 +41,8 @@ Estimators estimators_from(double b, double ln_s, double k, double a)
           .paper_a = a,
           .minus_ln_s = -ln_s};
 }
+
+}  // namespace
 
 Estimators estimators_of(const std::vector<FitPoint>& points)
 {
@@ -76,9 +75,7 @@ double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& ru
 
 namespace {
 
-/// The additive sums of a window: w = weight, f = frames, X = ln x, Y = ln y, D = psi_L - phi_L and
-/// Q = phi_L phi_S.
-enum Sum : Eigen::Index { sum_fD, sum_fQ, sum_w, sum_wX, sum_wY, sum_wXX, sum_wXY, number_of_sums };
+using Sum = WindowSums::Sum;
 
 /// A power law wants points at different x.
 bool spread_out(double w, double wX, double wXX)
@@ -86,54 +83,39 @@ bool spread_out(double w, double wX, double wXX)
   return wXX * w - wX * wX > 1e-12 * w * w;
 }
 
-/// One statistic as a weighted mean over points: of ln(y/x), or of (psi_L - phi_L)/(phi_L phi_S) with
-/// weight f phi_L phi_S.
-struct WeightedMean {
-  std::vector<const FitPoint*> points;
-  std::vector<double> phi_large, value, weight;
-
-  void add(const FitPoint& point, double of_value, double with_weight)
-  {
-    points.push_back(&point);
-    phi_large.push_back(point.phi_large);
-    value.push_back(of_value);
-    weight.push_back(with_weight);
-  }
-  /// Calls at(point, weight x noise) for every point.
-  template <class At>
-  void for_noise(const At& at) const
-  {
-    if (points.empty()) return;
-    const auto vector = [](const std::vector<double>& list) {
-      return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
-    };
-    const Eigen::VectorXd noise =
-        composition_noise(vector(phi_large), vector(value), vector(weight));
-    for (std::size_t k = 0; k < points.size(); ++k)
-      at(*points[k], weight[k] * noise[static_cast<Eigen::Index>(k)]);
-  }
-};
-
-Eigen::Index window_of(const FitPoint& point)
+/// Calls at(point, weight x noise) for every point that a mean of `value` with `weight` is over.
+template <class Value, class Weight, class At>
+void for_noise(const std::vector<FitPoint>& points, const Value& value, const Weight& weight,
+               const At& at)
 {
-  return static_cast<Eigen::Index>(point.window);
+  if (points.empty()) return;
+  const Eigen::VectorXd weights = numbers_of(points, weight);
+  const Eigen::VectorXd noise = composition_noise(numbers_of(points, &FitPoint::phi_large),
+                                                  numbers_of(points, value), weights);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    at(points[k], weights[index(k)] * noise[index(k)]);
 }
 
 Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
 {
-  WeightedMean logarithm, b;
+  std::vector<FitPoint> with_logarithm, with_stress;
   for (const auto& point : points) {
-    if (point.has_logarithm())
-      logarithm.add(point, std::log(point.small / point.large / point.ratio()), point.weight);
-    if (point.total > 0)
-      b.add(point, point.excess() / point.product(), point.frames * point.product());
+    if (point.has_logarithm()) with_logarithm.push_back(point);
+    if (point.total > 0) with_stress.push_back(point);
   }
-  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, number_of_sums);
-  logarithm.for_noise([&](const FitPoint& point, double part) {
-    noise(window_of(point), sum_wY) += part;
-    noise(window_of(point), sum_wXY) += part * std::log(point.ratio());
-  });
-  b.for_noise([&](const FitPoint& point, double part) { noise(window_of(point), sum_fD) += part; });
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, Sum::number_of_sums);
+  for_noise(
+      with_logarithm,
+      [](const FitPoint& point) { return std::log(point.small / point.large / point.ratio()); },
+      &FitPoint::weight,
+      [&](const FitPoint& point, double part) {
+        noise(index(point.window), Sum::wY) += part;
+        noise(index(point.window), Sum::wXY) += part * std::log(point.ratio());
+      });
+  for_noise(
+      with_stress, [](const FitPoint& point) { return point.excess() / point.product(); },
+      [](const FitPoint& point) { return point.frames * point.product(); },
+      [&](const FitPoint& point, double part) { noise(index(point.window), Sum::fD) += part; });
   return noise;
 }
 
@@ -141,44 +123,24 @@ Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index w
 
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs)
 {
-  const auto windows = static_cast<Eigen::Index>(number_of_windows(runs));
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(windows, number_of_sums);
+  const auto windows = index(number_of_windows(runs));
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(windows, Sum::number_of_sums);
   for (const auto& point : points) {
-    auto row = sums.row(window_of(point));
+    auto row = sums.row(index(point.window));
     if (point.total > 0) {
-      row[sum_fD] += point.frames * point.excess();
-      row[sum_fQ] += point.frames * point.product();
+      row[Sum::fD] += point.frames * point.excess();
+      row[Sum::fQ] += point.frames * point.product();
     }
     if (!point.has_logarithm()) continue;
     const double w = point.weight, ln_x = std::log(point.ratio()),
                  ln_y = std::log(point.small / point.large);
-    row[sum_w] += w;
-    row[sum_wX] += w * ln_x;
-    row[sum_wY] += w * ln_y;
-    row[sum_wXX] += w * ln_x * ln_x;
-    row[sum_wXY] += w * ln_x * ln_y;
+    row[Sum::w] += w;
+    row[Sum::wX] += w * ln_x;
+    row[Sum::wY] += w * ln_y;
+    row[Sum::wXX] += w * ln_x * ln_x;
+    row[Sum::wXY] += w * ln_x * ln_y;
   }
   return {std::move(sums), window_noise(points, windows)};
-}
-
-Eigen::VectorXd WindowSums::weight() const
-{
-  return sums.col(sum_fQ);
-}
-
-Eigen::VectorXd WindowSums::weight_of_logarithms() const
-{
-  return sums.col(sum_w);
-}
-
-Eigen::VectorXd WindowSums::excess() const
-{
-  return sums.col(sum_fD);
-}
-
-Eigen::VectorXd WindowSums::excess_noise() const
-{
-  return noise.col(sum_fD);
 }
 
 Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
@@ -189,37 +151,53 @@ Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
 
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total)
 {
-  const double w = total[sum_w], w_x = total[sum_wX], w_y = total[sum_wY];
+  const double w = total[Sum::w], w_x = total[Sum::wX], w_y = total[Sum::wY];
   double k = no_number, a = no_number;
-  if (spread_out(w, w_x, total[sum_wXX])) {
-    a = (w * total[sum_wXY] - w_x * w_y) / (w * total[sum_wXX] - w_x * w_x);
+  if (spread_out(w, w_x, total[Sum::wXX])) {
+    a = (w * total[Sum::wXY] - w_x * w_y) / (w * total[Sum::wXX] - w_x * w_x);
     k = std::exp((w_y - a * w_x) / w);
   }
-  return estimators_from(total[sum_fD] / total[sum_fQ], (w_y - w_x) / w, k, a);
+  return estimators_from(total[Sum::fD] / total[Sum::fQ], (w_y - w_x) / w, k, a);
 }
 
-Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)
+Eigen::Index column_of(double Estimators::*place)
 {
-  return adds_up ? dependence(windows.noise.col(sum_fD), windows.sums.col(sum_fQ), runs)
-                 : dependence(windows.noise.col(sum_wY), windows.sums.col(sum_w), runs);
+  return std::ranges::find(estimator_columns, place, &EstimatorColumn::value) -
+         estimator_columns.begin();
 }
 
 namespace {
 
-Eigen::VectorXd values_of(const Estimators& estimators)
+Eigen::RowVectorXd values_of(const Estimators& estimators)
 {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(estimator_columns.size()));
-  for (std::size_t k = 0; k < estimator_columns.size(); ++k)
-    values[static_cast<Eigen::Index>(k)] = estimators.*estimator_columns[k].value;
+  return numbers_of(estimator_columns,
+                    [&](const EstimatorColumn& column) { return estimators.*column.value; });
+}
+
+}  // namespace
+
+Eigen::MatrixXd WindowSums::sampled(const Eigen::MatrixXd& times) const
+{
+  const Eigen::MatrixXd all = totals(times);
+  Eigen::MatrixXd values(all.rows(), index(estimator_columns.size()));
+  for (Eigen::Index k = 0; k < all.rows(); ++k)
+    values.row(k) = values_of(estimators_from_sums(all.row(k)));
   return values;
 }
 
-/// d(estimators)/d(sums), a row per sum, by central differences.
-Eigen::MatrixXd derivatives(const Eigen::MatrixXd& sums)
+Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)
+{
+  return adds_up ? dependence(windows.noise.col(Sum::fD), windows.sums.col(Sum::fQ), runs)
+                 : dependence(windows.noise.col(Sum::wY), windows.sums.col(Sum::w), runs);
+}
+
+// Derivatives by central differences.
+Influence influence_on(double Estimators::*place, const WindowSums& windows)
 {
   constexpr double relative_step = 1e-5;
+  const Eigen::MatrixXd& sums = windows.sums;
   const Eigen::RowVectorXd total = sums.colwise().sum(), scale = sums.cwiseAbs().colwise().sum();
-  Eigen::MatrixXd slope(sums.cols(), static_cast<Eigen::Index>(estimator_columns.size()));
+  Eigen::MatrixXd slope(sums.cols(), index(estimator_columns.size()));
   for (Eigen::Index k = 0; k < sums.cols(); ++k) {
     const double step = scale[k] > 0 ? relative_step * scale[k] : relative_step;
     auto up = total, down = total;
@@ -228,64 +206,39 @@ Eigen::MatrixXd derivatives(const Eigen::MatrixXd& sums)
     slope.row(k) =
         (values_of(estimators_from_sums(up)) - values_of(estimators_from_sums(down))) / (2 * step);
   }
-  return slope;
+  const Eigen::MatrixXd of_sums = sums * slope, of_noise = windows.noise * slope;
+  return {of_sums.col(column_of(place)), of_noise.col(column_of(place))};
 }
 
-}  // namespace
-
-Eigen::Index column_of_estimator(double Estimators::*place)
+/// Sums over the windows of each run.
+Eigen::VectorXd RunErrors::by_run(const std::vector<Run>& runs, const Eigen::VectorXd& of_windows)
 {
-  const auto at = std::find_if(estimator_columns.begin(), estimator_columns.end(),
-                               [place](const auto& column) { return column.value == place; });
-  return at - estimator_columns.begin();
-}
-
-Influences influences_of(const WindowSums& windows)
-{
-  const Eigen::MatrixXd slope = derivatives(windows.sums);
-  return {windows.sums * slope, windows.noise * slope};
+  return numbers_of(
+      runs, [&](const Run& run) { return of_windows.segment(run.first, run.windows).sum(); });
 }
 
 RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight) : weight_(weight)
 {
-  std::map<std::size_t, Group> groups;
-  std::size_t first = 0;
+  std::map<std::size_t, std::vector<Run>> flows;
+  Eigen::Index first = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    auto& group = groups[data.flow_of(run)];
-    group.first.push_back(first);
-    group.length.push_back(data.runs[run]);
-    first += data.runs[run];
+    flows[data.flow_of(run)].push_back({first, index(data.runs[run])});
+    first += index(data.runs[run]);
   }
-  for (auto& [flow, group] : groups) {
-    group.weight.resize(static_cast<Eigen::Index>(group.first.size()));
-    for (std::size_t k = 0; k < group.first.size(); ++k)
-      group.weight[static_cast<Eigen::Index>(k)] =
-          weight
-              .segment(static_cast<Eigen::Index>(group.first[k]),
-                       static_cast<Eigen::Index>(group.length[k]))
-              .sum();
-    groups_.push_back(std::move(group));
-  }
+  for (const auto& [flow, runs] : flows) flows_.push_back({runs, by_run(runs, weight)});
 }
 
-StandardError RunErrors::within_flows(const Eigen::VectorXd& sums,
-                                      const Eigen::VectorXd& noise) const
+StandardError RunErrors::within_flows(const Influence& influence) const
 {
   std::vector<StandardError> parts;
-  for (const auto& group : groups_) {
-    const auto run = [&group](const Eigen::VectorXd& of_windows, std::size_t k) {
-      return of_windows.segment(static_cast<Eigen::Index>(group.first[k]),
-                                static_cast<Eigen::Index>(group.length[k]));
-    };
-    if (group.first.size() == 1) {
-      const Eigen::VectorXd own = run(noise, 0);
-      parts.push_back(standard_error(own - own.sum() / group.weight[0] * run(weight_, 0), 1));
+  for (const auto& [runs, weight] : flows_) {
+    if (runs.size() > 1) {
+      parts.push_back(scatter_of_runs(by_run(runs, influence.sums), weight));
       continue;
     }
-    Eigen::VectorXd of_runs(group.weight.size());
-    for (std::size_t k = 0; k < group.first.size(); ++k)
-      of_runs[static_cast<Eigen::Index>(k)] = run(sums, k).sum();
-    parts.push_back(scatter_of_runs(of_runs, group.weight));
+    const Eigen::VectorXd own = influence.noise.segment(runs[0].first, runs[0].windows);
+    parts.push_back(standard_error(
+        own - own.sum() / weight[0] * weight_.segment(runs[0].first, runs[0].windows), 1));
   }
   return added(parts);
 }
@@ -294,26 +247,18 @@ double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence, double fi
 {
   double sum = 0, all = 0, within = 0, of_means = 0;
   std::size_t runs = 0;
-  for (const auto& group : groups_) {
-    Eigen::VectorXd value(group.weight.size());
-    for (std::size_t k = 0; k < group.first.size(); ++k) {
-      const auto place = static_cast<Eigen::Index>(k);
-      value[place] = influence
-                         .segment(static_cast<Eigen::Index>(group.first[k]),
-                                  static_cast<Eigen::Index>(group.length[k]))
-                         .sum() /
-                     group.weight[place];
-    }
-    const double weight = group.weight.sum(), mean = group.weight.dot(value) / weight;
-    within += group.weight.dot((value.array() - mean).square().matrix());
+  for (const auto& flow : flows_) {
+    const Eigen::VectorXd value = by_run(flow.runs, influence).cwiseQuotient(flow.weight);
+    const double weight = flow.weight.sum(), mean = flow.weight.dot(value) / weight;
+    within += flow.weight.dot((value.array() - mean).square().matrix());
     of_means += weight * mean * mean;
     sum += weight * mean;
     all += weight;
-    runs += group.first.size();
+    runs += flow.runs.size();
   }
-  const auto within_degrees = static_cast<double>(runs - groups_.size());
-  if (groups_.size() < 2 || !(within_degrees > 0) || !(within > 0)) return 1;
-  const double between_degrees = std::max(1.0, static_cast<double>(groups_.size()) - fitted);
+  const auto within_degrees = static_cast<double>(runs - flows_.size());
+  if (flows_.size() < 2 || !(within_degrees > 0) || !(within > 0)) return 1;
+  const double between_degrees = std::max(1.0, static_cast<double>(flows_.size()) - fitted);
   const double between = of_means - sum * sum / all;
   return gsl_cdf_fdist_Q(between / between_degrees / (within / within_degrees), between_degrees,
                          within_degrees);
@@ -321,8 +266,8 @@ double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence, double fi
 
 std::size_t RunErrors::single_runs() const
 {
-  return static_cast<std::size_t>(std::count_if(
-      groups_.begin(), groups_.end(), [](const Group& group) { return group.first.size() == 1; }));
+  return static_cast<std::size_t>(
+      std::ranges::count(flows_, 1U, [](const Flow& flow) { return flow.runs.size(); }));
 }
 
 }  // namespace grseg

@@ -3,8 +3,7 @@
 
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/confidence.hpp"
-#include "analysis/statistics/dependence.hpp"
+#include "analysis/statistics/bootstrap.hpp"
 
 #include <Eigen/Core>
 #include <array>
@@ -45,8 +44,8 @@ inline constexpr std::array<EstimatorColumn, 6> estimator_columns{{
     {"minus_ln_s", &Estimators::minus_ln_s},
 }};
 
-/// All estimators, from the four numbers that they follow from.
-Estimators estimators_from(double b, double ln_s, double k, double a);
+/// The number of its column.
+Eigen::Index column_of(double Estimators::*place);
 
 /// By GSL's fits of the points themselves. Points with a stress that is not positive take part in B
 /// only.
@@ -63,18 +62,22 @@ double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& ru
 /// whole stress is positive), w, w ln x, w ln y, w (ln x)^2 and w ln x ln y (of those with a
 /// logarithm).
 struct WindowSums {
+  /// The columns: X is ln x and Y is ln y.
+  enum Sum : Eigen::Index { fD, fQ, w, wX, wY, wXX, wXY, number_of_sums };
   Eigen::MatrixXd sums, noise;
 
   /// The sums of all windows.
   Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
   /// Of each window in B, and in the mean of ln(y/x).
-  Eigen::VectorXd weight() const;
-  Eigen::VectorXd weight_of_logarithms() const;
+  Eigen::VectorXd weight() const { return sums.col(fQ); }
+  Eigen::VectorXd weight_of_logarithms() const { return sums.col(w); }
   /// Of each window the sum over its layers of frames x (psi_L - phi_L), and what of it is noise.
-  Eigen::VectorXd excess() const;
-  Eigen::VectorXd excess_noise() const;
+  Eigen::VectorXd excess() const { return sums.col(fD); }
+  Eigen::VectorXd excess_noise() const { return noise.col(fD); }
   /// The sums of samples that count window k times(sample, k) times, a row per sample.
   Eigen::MatrixXd totals(const Eigen::MatrixXd& times) const;
+  /// The estimators of these samples, a column per entry of estimator_columns.
+  Eigen::MatrixXd sampled(const Eigen::MatrixXd& times) const;
 };
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
 
@@ -85,16 +88,20 @@ Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool ad
 /// The same estimates as from the points, from totals of those sums.
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total);
 
-/// By how much each window moves every estimator: d(estimator)/d(sums) times the window's sums, one
-/// column per entry of estimator_columns. Columns of `sums` add up to 0, since estimators are ratios.
-struct Influences {
-  Eigen::MatrixXd sums;  // of all that the window holds: what whole runs differ by
-  Eigen::MatrixXd
+/// By how much each window moves a statistic.
+struct Influence {
+  Eigen::VectorXd sums;  // of all that the window holds: what whole runs differ by
+  Eigen::VectorXd
       noise;  // of what composition does not explain: what windows inside a run differ by
+
+  Influence operator-(const Influence& other) const
+  {
+    return {sums - other.sums, noise - other.noise};
+  }
 };
-Influences influences_of(const WindowSums& windows);
-/// Where an estimator stands in them.
-Eigen::Index column_of_estimator(double Estimators::*place);
+/// That on an estimator: its derivative by the sums times the window's sums. These add up to 0 over all
+/// windows, since estimators are ratios.
+Influence influence_on(double Estimators::*place, const WindowSums& windows);
 
 /// Errors of statistics over whole runs, the flows being fixed: those of the flows added. Of a
 /// flow with a single run the scatter of its windows stands for that of runs, about what each
@@ -105,7 +112,7 @@ class RunErrors {
   RunErrors(const FitData& data, const Eigen::VectorXd& weight);
 
   /// Of a statistic whose deviation is the sum of the windows' influences.
-  StandardError within_flows(const Eigen::VectorXd& sums, const Eigen::VectorXd& noise) const;
+  StandardError within_flows(const Influence& influence) const;
   /// The chance that runs of like flows differ between flows as much as these do, by Fisher's
   /// test of the mean squares of influence over weight between and within flows; 1 where it cannot
   /// be told. `fitted`: of the differences between flows, how many degrees of freedom were taken
@@ -115,12 +122,30 @@ class RunErrors {
   std::size_t single_runs() const;
 
  private:
-  struct Group {
-    std::vector<std::size_t> first, length;  // of each run: its first window, how many
-    Eigen::VectorXd weight;                  // of each run
+  struct Run {
+    Eigen::Index first, windows;
   };
+  struct Flow {
+    std::vector<Run> runs;
+    Eigen::VectorXd weight;  // of each run
+  };
+  static Eigen::VectorXd by_run(const std::vector<Run>& runs, const Eigen::VectorXd& of_windows);
+
   Eigen::VectorXd weight_;  // of each window
-  std::vector<Group> groups_;
+  std::vector<Flow> flows_;
 };
+
+/// The error over a population of a statistic that `sampled` makes of how often samples count the windows,
+/// and whose deviation is the sum of the windows' influences.
+template <class Sampled>
+StandardError error_over(Population over, const Bootstrap& bootstrap, const Dependence& dependence,
+                         const Sampled& sampled, const RunErrors& runs, const Influence& influence)
+{
+  if (over == Population::windows)
+    return bootstrap.window_error(sampled(bootstrap.blocks(dependence.block)), dependence);
+  if (over == Population::compositions)
+    return bootstrap.run_error(sampled(bootstrap.whole_runs()), dependence);
+  return runs.within_flows(influence);
+}
 
 }  // namespace grseg

@@ -35,35 +35,23 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
   return scaled;
 }
 
-StandardError error_of(const WindowSums& windows, const FitData& data, Population over,
-                       const Dependence& how_dependent, const Bootstrap& bootstrap)
-{
-  if (over != Population::windows && over != Population::compositions) {
-    const auto influences = influences_of(windows);
-    const auto column = column_of_estimator(&Estimators::minus_ln_s);
-    return RunErrors(data, windows.weight_of_logarithms())
-        .within_flows(influences.sums.col(column), influences.noise.col(column));
-  }
-  const auto& times =
-      over == Population::windows ? bootstrap.blocks(how_dependent.block) : bootstrap.whole_runs();
-  const Eigen::MatrixXd totals = windows.totals(times);
-  Eigen::VectorXd samples(totals.rows());
-  for (Eigen::Index k = 0; k < samples.size(); ++k)
-    samples[k] = estimators_from_sums(totals.row(k)).minus_ln_s;
-  return over == Population::windows ? bootstrap.window_error(samples, how_dependent)
-                                     : bootstrap.run_error(samples, how_dependent);
-}
-
 /// Of all points together.
 Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
                          const FitSettings& settings, const Resampling& resampling)
 {
   const auto points = points_per_size(fit_points(data, rule, settings));
-  const double a = estimators_of(points).minus_ln_s;
+  constexpr auto exponent = &Estimators::minus_ln_s;
+  const double a = estimators_of(points).*exponent;
   if (points.empty() || resampling.samples == 0) return {a};
-  const auto over = resolved(settings.over, data.runs.size(), data.number_of_flows());
-  return {a, error_of(window_sums(points, data.runs), data, over, dependence(data, rule, settings),
-                      Bootstrap(data.runs, resampling.samples, resampling.seed))};
+  const auto windows = window_sums(points, data.runs);
+  const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
+    return windows.sampled(times).col(column_of(exponent));
+  };
+  return {a, error_over(resolved(settings.over, data.runs.size(), data.number_of_flows()),
+                        Bootstrap(data.runs, resampling.samples, resampling.seed),
+                        dependence(data, rule, settings), sampled,
+                        RunErrors(data, windows.weight_of_logarithms()),
+                        influence_on(exponent, windows))};
 }
 
 }  // namespace

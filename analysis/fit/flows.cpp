@@ -335,8 +335,7 @@ std::vector<double> weight_shares(const FitData& data, std::size_t flows)
 {
   const auto flow_of = data.flows_of_windows();
   std::vector<double> shares(flows);
-  for (const auto& sample : data.samples)
-    shares[flow_of[sample.window]] += sample.frames * sample.phi_large * (1 - sample.phi_large);
+  for (const auto& sample : data.samples) shares[flow_of[sample.window]] += sample.weight_in_b();
   const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
   for (double& share : shares) share /= all;
   return shares;

@@ -2,7 +2,6 @@
 #include "analysis/fit/rule_fit.hpp"
 
 #include "analysis/fit/estimators.hpp"
-#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
@@ -20,77 +19,31 @@ void remove_b(RuleFit& fit)
   fit.B_over.fill({});
 }
 
-std::vector<Estimators> replicate(const Eigen::MatrixXd& times, const WindowSums& windows)
-{
-  const Eigen::MatrixXd totals = windows.totals(times);
-  std::vector<Estimators> replicates;
-  replicates.reserve(static_cast<std::size_t>(totals.rows()));
-  for (Eigen::Index sample = 0; sample < totals.rows(); ++sample)
-    replicates.push_back(estimators_from_sums(totals.row(sample)));
-  return replicates;
-}
-
-Eigen::VectorXd column_of(const std::vector<Estimators>& replicates, double Estimators::*place)
-{
-  Eigen::VectorXd values(static_cast<Eigen::Index>(replicates.size()));
-  for (std::size_t k = 0; k < replicates.size(); ++k)
-    values[static_cast<Eigen::Index>(k)] = replicates[k].*place;
-  return values;
-}
-
-StandardError window_error(const std::vector<Estimators>& of_blocks, double Estimators::*place,
-                           const RuleFit& fit, const Bootstrap& bootstrap)
-{
-  return bootstrap.window_error(column_of(of_blocks, place), fit.dependence);
-}
-
 /// Errors over windows, over runs within flows and over runs about one function of composition;
 /// those that the fit is over become its intervals.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
                    const Bootstrap& bootstrap)
 {
-  const auto of_blocks = replicate(bootstrap.blocks(fit.dependence.block), windows);
-  const auto of_runs = replicate(bootstrap.whole_runs(), windows);
-  const auto influences = influences_of(windows);
   const RunErrors of_b(data, windows.weight()), of_logarithms(data, windows.weight_of_logarithms());
+  const Eigen::MatrixXd of_blocks = windows.sampled(bootstrap.blocks(fit.dependence.block)),
+                        of_runs = windows.sampled(bootstrap.whole_runs());
   for (const auto& [name, place] : estimator_columns) {
-    const bool is_b = place == &Estimators::B;
-    const auto column = column_of_estimator(place);
-    const auto over_windows = window_error(of_blocks, place, fit, bootstrap);
-    const auto about_one_function = bootstrap.run_error(column_of(of_runs, place), fit.dependence);
-    const auto within =
-        (is_b ? of_b : of_logarithms)
-            .within_flows(influences.sums.col(column), influences.noise.col(column));
-    set_error(fit, place,
-              fit.over == Population::windows        ? over_windows
-              : fit.over == Population::compositions ? about_one_function
-                                                     : within);
-    if (!is_b) continue;
-    fit.at(Population::windows) = over_windows.around(fit.value.B);
+    const auto& runs = place == &Estimators::B ? of_b : of_logarithms;
+    const auto influence = influence_on(place, windows);
+    const auto sampled = [&, column = column_of(place)](const auto& times) -> Eigen::VectorXd {
+      return (&times == &bootstrap.whole_runs() ? of_runs : of_blocks).col(column);
+    };
+    const auto error = [&](Population over) {
+      return error_over(over, bootstrap, fit.dependence, sampled, runs, influence);
+    };
+    set_error(fit, place, error(fit.over));
+    if (place != &Estimators::B) continue;
+    fit.at(Population::windows) = error(Population::windows).around(fit.value.B);
     if (fit.runs < 2) continue;
-    fit.at(Population::compositions) = about_one_function.around(fit.value.B);
-    fit.at(data.number_of_flows() > 1 ? Population::flows : Population::runs) =
-        within.around(fit.value.B);
+    for (const auto over : {Population::compositions,
+                            data.number_of_flows() > 1 ? Population::flows : Population::runs})
+      fit.at(over) = error(over).around(fit.value.B);
   }
-}
-
-StandardError error_of_minus_size(const RuleFit& fit, const FitData& data,
-                                  const WindowSums& windows, const WindowSums& by_size,
-                                  const Bootstrap& bootstrap)
-{
-  if (fit.over == Population::windows || fit.over == Population::compositions) {
-    const auto& times = fit.over == Population::windows ? bootstrap.blocks(fit.dependence.block)
-                                                        : bootstrap.whole_runs();
-    const Eigen::VectorXd samples = column_of(replicate(times, windows), &Estimators::B) -
-                                    column_of(replicate(times, by_size), &Estimators::B);
-    return fit.over == Population::windows ? bootstrap.window_error(samples, fit.dependence)
-                                           : bootstrap.run_error(samples, fit.dependence);
-  }
-  const auto column = column_of_estimator(&Estimators::B);
-  const auto own = influences_of(windows), others = influences_of(by_size);
-  return RunErrors(data, windows.weight())
-      .within_flows(own.sums.col(column) - others.sums.col(column),
-                    own.noise.col(column) - others.noise.col(column));
 }
 
 Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& windows,
@@ -98,25 +51,24 @@ Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& w
 {
   const double difference = fit.value.B - estimators_of(size_points).B;
   if (bootstrap.count() == 0) return {difference};
-  return {difference, error_of_minus_size(fit, data, windows,
-                                          window_sums(size_points, bootstrap.runs()), bootstrap)};
+  const auto by_size = window_sums(size_points, bootstrap.runs());
+  constexpr auto b = &Estimators::B;
+  const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
+    return windows.sampled(times).col(column_of(b)) - by_size.sampled(times).col(column_of(b));
+  };
+  return {difference, error_over(fit.over, bootstrap, fit.dependence, sampled,
+                                 RunErrors(data, windows.weight()),
+                                 influence_on(b, windows) - influence_on(b, by_size))};
 }
 
 /// Of the differences between flows, how many degrees of freedom the noise lacks.
 double degrees_taken_by_composition(const FitData& data)
 {
-  const auto size = static_cast<Eigen::Index>(data.samples.size());
   const auto flow_of_window = data.flows_of_windows();
-  Eigen::VectorXd phi_large(size), weight(size);
   std::vector<std::size_t> flow;
-  flow.reserve(data.samples.size());
-  for (const auto& sample : data.samples) {
-    const auto place = static_cast<Eigen::Index>(flow.size());
-    phi_large[place] = sample.phi_large;
-    weight[place] = sample.frames * sample.phi_large * (1 - sample.phi_large);
-    flow.push_back(flow_of_window[sample.window]);
-  }
-  return degrees_of_composition(phi_large, weight, flow);
+  for (const auto& sample : data.samples) flow.push_back(flow_of_window[sample.window]);
+  return degrees_of_composition(numbers_of(data.samples, &LayerSample::phi_large),
+                                numbers_of(data.samples, &LayerSample::weight_in_b), flow);
 }
 
 /// What limits the interval, mostly nothing.
@@ -132,8 +84,7 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
   if (flows == 1) return bootstrap.doubt_of_runs(fit.dependence);
   const RunErrors errors(data, windows.weight());
   if (fit.over == Population::compositions) {
-    const auto column = column_of_estimator(&Estimators::B);
-    const double chance = errors.chance_of_likeness(influences_of(windows).noise.col(column),
+    const double chance = errors.chance_of_likeness(influence_on(&Estimators::B, windows).noise,
                                                     degrees_taken_by_composition(data));
     if (chance >= 0.05) return bootstrap.doubt_of_runs(fit.dependence);
     return fmt::format(
@@ -209,6 +160,87 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.neutral = neutral_mean(points, rule);
   if (!common) fit.line = line_over_share(data, settings, bootstrap, fit.over);
   return fit;
+}
+
+namespace {
+
+std::vector<FitPoint> points_at(const FitData& data, double share, const FitSettings& settings)
+{
+  return fit_points(data, {PartitionRule::Kind::uniform, share}, settings);
+}
+
+/// What B(p) follows from at one share.
+struct AtShare {
+  WindowSums value;       // psi_L - phi_L
+  WindowSums derivative;  // d psi_L/dp in its place
+};
+
+AtShare at_share(const FitData& data, double share, const FitSettings& settings)
+{
+  const auto none = points_at(data, 0, settings), all = points_at(data, 1, settings);
+  const auto points = points_at(data, share, settings);
+  auto slopes = points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double large = all[k].large - none[k].large, total = all[k].total - none[k].total;
+    const double psi = points[k].large / points[k].total;
+    slopes[k].large = slopes[k].phi_large + (large - psi * total) / points[k].total;
+    slopes[k].total = points[k].total > 0 ? 1 : 0;
+  }
+  return {window_sums(points, data.runs), window_sums(slopes, data.runs)};
+}
+
+/// Newton's method; one step where B(p) is straight.
+double zero_of_b(const FitData& data, const FitSettings& settings)
+{
+  double share = 0.5;
+  for (int step = 0; step < 8; ++step) {
+    const auto at = at_share(data, share, settings);
+    const double change = at.value.excess().sum() / at.derivative.excess().sum();
+    if (!std::isfinite(change)) return change;
+    share -= change;
+    if (std::abs(change) < 1e-14) break;
+  }
+  return share;
+}
+
+}  // namespace
+
+// With E the sum over frames of psi_L - phi_L, a window adds its part of E over -dE/dp to p*, and its
+// part of dE/dp over sum f phi_L phi_S to dB/dp.
+LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
+                              const Bootstrap& bootstrap, Population over)
+{
+  if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
+  const double zero = zero_of_b(data, settings);
+  if (!std::isfinite(zero)) return {};
+  const auto at = at_share(data, zero, settings);
+  const Eigen::VectorXd weight = at.value.weight();
+  const double change = at.derivative.excess().sum(), slope = change / weight.sum();
+  if (bootstrap.count() == 0) return {{zero}, {slope}};
+  const auto how_dependent = dependence(at.value, data.runs, true);
+  const RunErrors run_errors(data, weight);
+  const auto error = [&](const Influence& influence) {
+    const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
+      return times * influence.noise;
+    };
+    return error_over(over, bootstrap, how_dependent, sampled, run_errors, influence);
+  };
+  return {{zero, error({at.value.excess() / -change, at.value.excess_noise() / -change})},
+          {slope, error({(at.derivative.excess() - slope * weight) / weight.sum(),
+                         at.derivative.excess_noise() / weight.sum()})}};
+}
+
+double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
+                      const FitSettings& settings)
+{
+  const auto none = points_at(data, 0, settings), all = points_at(data, 1, settings);
+  double given = 0, mixed = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!(points[k].total > 0)) continue;
+    given += points[k].frames * (points[k].excess() - none[k].excess());
+    mixed += points[k].frames * (all[k].excess() - none[k].excess());
+  }
+  return given / mixed;
 }
 
 }  // namespace grseg

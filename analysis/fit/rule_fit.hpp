@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/fit/estimators.hpp"
-#include "analysis/fit/line_over_share.hpp"
+#include "analysis/fit/fit_data.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
@@ -13,12 +13,21 @@
 
 namespace grseg {
 
+/// B over the share p that the large grain gets of every mixed contact. Of two species it is a straight
+/// line, B = dB_dp (p - p_zero), since sigma^L is linear in p and B in sigma^L. Where contacts are
+/// counted at the grains' centres (--assign grain) the whole stress of a layer depends on p, too, and
+/// the line is the tangent where B = 0.
+struct LineOverShare {
+  Measured p_zero;  // p*, where B = 0
+  Measured dB_dp;
+};
+
 /// What one partition rule makes of the data of two species. `share`, `neutral` and `line` are known
 /// only where there is no third one.
 struct RuleFit {
   PartitionRule rule;
   std::size_t points = 0;    // layers and windows
-  double share = no_number;  // the p that gives this B (line_over_share.hpp); drop: NaN
+  double share = no_number;  // the p that gives this B (rule_fit.hpp); drop: NaN
   Population over = Population::windows;  // what the intervals of 95 % are over
   std::optional<std::size_t> flow;        // number of the one that the fit is of; none: of all
   std::size_t runs = 0;
@@ -58,5 +67,15 @@ void add_doubt(RuleFit& fit, const std::string& doubt);
 /// flows the intervals are those over these flows: see fit_pairs.hpp.
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
+
+/// The line of contact stress and two species, NaN of others; errors are over `over`, with windows as
+/// dependent as they are at p*.
+LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
+                              const Bootstrap& bootstrap, Population over);
+
+/// The part of what B gains from p = 0 to 1 that it gains from p = 0 to `points`, those of some rule:
+/// the share of all mixed contacts that gives the same B.
+double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
+                      const FitSettings& settings);
 
 }  // namespace grseg

@@ -9,6 +9,7 @@
 
 #include <cassert>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -56,6 +57,9 @@ struct BedHeights {
   // y_L, y_S: centres of mass of the species, where there are two.
   double large = no_number, small = no_number;
   double bed = no_number;  // twice the mean height of the mobile grains' area or volume
+
+  static constexpr auto members =
+      std::tuple(&BedHeights::large, &BedHeights::small, &BedHeights::bed);
 };
 
 /// Those of one frame; NaN for a species without mobile grains.

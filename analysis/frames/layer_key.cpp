@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_key.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -100,19 +101,15 @@ const char* unit_of_volume(int dimension)
 std::vector<std::string> with_key_columns(int dimension, const std::vector<std::string>& more)
 {
   std::vector<std::string> names;
-  names.reserve(key_columns.size() + more.size());
   for (const auto& column : key_columns) names.push_back(column.name_with_unit(dimension));
-  names.insert(names.end(), more.begin(), more.end());
-  return names;
+  return add_all(names, more);
 }
 
 std::vector<double> with_key(const LayerKey& key, const std::vector<double>& more)
 {
   std::vector<double> row;
-  row.reserve(key_columns.size() + more.size());
   for (const auto& column : key_columns) row.push_back(key.*column.value);
-  row.insert(row.end(), more.begin(), more.end());
-  return row;
+  return add_all(row, more);
 }
 
 bool RowRange::holds_window(const LayerKey& key) const

@@ -2,6 +2,7 @@
 #include "analysis/frames/layer_table.hpp"
 
 #include "analysis/frames/map_grid.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
@@ -122,8 +123,7 @@ Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
   for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
   header.emplace_back("history", command);
   for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
-  for (auto& line : trust_of(tables)) header.push_back(std::move(line));
-  return header;
+  return add_all(header, trust_of(tables));
 }
 
 void refuse_map(const Table& table)

@@ -35,15 +35,40 @@ void accumulate(Sums& sums, const Sums& others)
   }
 }
 
-/// The same of structs that list their members.
+/// Calls use(part) with every number, vector and tensor in such sums.
+template <class Sums, class Use>
+void for_each_part(Sums& sums, const Use& use)
+{
+  if constexpr (requires { Sums::members; })
+    std::apply([&](auto... member) { (for_each_part(sums.*member, use), ...); }, Sums::members);
+  else if constexpr (requires { sums *= 1.0; })
+    use(sums);
+  else
+    for (auto& part : sums) for_each_part(part, use);
+}
+
 template <class Sums>
-requires requires
+concept ListsMembers = requires
 {
   Sums::members;
-}
+};
+
+template <ListsMembers Sums>
 Sums& operator+=(Sums& sums, const Sums& others)
 {
   accumulate(sums, others);
+  return sums;
+}
+template <ListsMembers Sums>
+Sums operator*(Sums sums, double factor)
+{
+  for_each_part(sums, [factor](auto& part) { part *= factor; });
+  return sums;
+}
+template <ListsMembers Sums>
+Sums operator/(Sums sums, double number)
+{
+  for_each_part(sums, [number](auto& part) { part /= number; });
   return sums;
 }
 
@@ -53,6 +78,14 @@ struct Cell {
   std::string column;
   double value;
 };
+
+/// Adds a list behind another.
+template <class List>
+List& add_all(List& list, const List& more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
 
 inline std::vector<std::string> columns_of(const std::vector<Cell>& cells)
 {

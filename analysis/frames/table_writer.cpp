@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <utility>
 
 namespace grseg {
@@ -152,7 +151,7 @@ Table empty_table(const FrameLoop& loop, const std::string& command, const Heade
   Table table;
   auto& header = table.header;
   header = provenance(loop.info(), loop.preset(), run, command);
-  for (auto& line : verification_lines(run)) header.push_back(std::move(line));
+  add_all(header, verification_lines(run));
   add_lines_of_run(header, loop, settings);
   const auto add = [&](const char* key, double value) {
     header.emplace_back(key, format_number(value));
@@ -162,17 +161,17 @@ Table empty_table(const FrameLoop& loop, const std::string& command, const Heade
   if (!layers.map()) add("layer", layers.thickness());
   add("window", loop.window_length());
   add("stride", static_cast<double>(loop.options().windows.stride));
-  for (auto& line : bins_lines(layers)) header.push_back(std::move(line));
+  add_all(header, bins_lines(layers));
   const auto origin = run.parameters().text("origin");
   if (const auto scene = scene_in_one_line(run); !scene.empty())
     header.emplace_back("scene", scene);
   header.emplace_back("origin", origin.empty() ? "unknown" : printable(origin));
-  header.insert(header.end(), settings.begin(), settings.end());
+  add_all(header, settings);
   if (const auto* map = layers.map()) {
     const auto& axes = map->axes();
     table.columns = map_key_columns({std::string(1, axes[0].name), std::string(1, axes[1].name)},
                                     loop.dimension());
-    table.columns.insert(table.columns.end(), columns.begin(), columns.end());
+    add_all(table.columns, columns);
   } else {
     table.columns = with_key_columns(loop.dimension(), columns);
   }
@@ -193,8 +192,7 @@ std::vector<double> table_row(const FrameLoop& loop, const Window& window, std::
   const std::size_t i = map->column(layer), j = map->row(layer);
   std::vector<double> row{window.begin,   window.end,         first.edge(i), first.edge(i + 1),
                           second.edge(j), second.edge(j + 1), frames,        map->volume(layer)};
-  row.insert(row.end(), values.begin(), values.end());
-  return row;
+  return add_all(row, values);
 }
 
 TableWriter::TableWriter(FrameLoop& loop, const std::string& command, const Header& settings,
@@ -230,8 +228,7 @@ Table TableWriter::joined() const
   auto all = table_;
   for (std::size_t k = 1; k <= options.parts.join; ++k) {
     const OutputPart part{k, options.parts.join};
-    auto rows = read_part(table_, part, part.path(options.output.path, ".tsv")).rows;
-    std::move(rows.begin(), rows.end(), std::back_inserter(all.rows));
+    add_all(all.rows, read_part(table_, part, part.path(options.output.path, ".tsv")).rows);
   }
   return all;
 }

@@ -71,7 +71,7 @@ void add_composition(Derivation<D>& to)
   const auto& s = to.sums().species;
   to.add("nu", ratio(s[0].content + s[1].content, to.row.volume));
   to.add("phi_L", to.sums().phi_large());
-  for (auto& cell : cells(to.row.heights)) to.cells.push_back(std::move(cell));
+  add_all(to.cells, cells(to.row.heights));
   to.add("yL/H", to.row.heights.large / to.depth(to.row.heights.bed));
   to.add("mixed_share", to.sums().mixed_share());
   to.add("neutral_share", neutral_mixed_share(to.sums().phi_large(), to.size_ratio()));

@@ -35,14 +35,6 @@ struct LayerForce {
   double contacts = 0, normal = 0;
 };
 
-template <int D>
-std::vector<Cell> cells(const StructureSums<D>& sums, const BedHeights& heights)
-{
-  auto cells = sums.cells();
-  for (auto& cell : grseg::cells(heights)) cells.push_back(std::move(cell));
-  return cells;
-}
-
 /// What FabricSums adds.
 template <int D>
 typename FabricSums<D>::Tangential tangential_part(const Vector<D>& force,
@@ -85,9 +77,7 @@ void StructureByLayer<D>::merge(const StructureByLayer& others)
   frames_ += others.frames_;
   composition_.merge(others.composition_);
   accumulate(sums_, others.sums_);
-  heights_.large += others.heights_.large;
-  heights_.small += others.heights_.small;
-  heights_.bed += others.heights_.bed;
+  heights_ += others.heights_;
 }
 
 template <int D>
@@ -98,10 +88,7 @@ void StructureByLayer<D>::add_grains(const Grains& grains, const Frame<D>& frame
       ++sums_[holding(frame.position[g])]
             .species[static_cast<std::size_t>(grains.species[g])]
             .grains;
-  const auto now = bed_heights(grains, frame);
-  heights_.small += now.small;
-  heights_.large += now.large;
-  heights_.bed += now.bed;
+  heights_ += bed_heights(grains, frame);
 }
 
 template <int D>
@@ -180,31 +167,6 @@ StructureSums<D> StructureByLayer<D>::mean() const
   StructureSums<D> all;
   for (std::size_t layer = 0; layer < layers(); ++layer) all += mean(layer);
   return all;
-}
-
-template <int D>
-BedHeights StructureByLayer<D>::heights() const
-{
-  const auto frames = static_cast<double>(frames_);
-  return {heights_.large / frames, heights_.small / frames, heights_.bed / frames};
-}
-
-template <int D>
-std::vector<std::string> StructureByLayer<D>::columns()
-{
-  return columns_of(cells(StructureSums<D>{}, {}));
-}
-
-template <int D>
-std::vector<double> StructureByLayer<D>::row(std::size_t layer) const
-{
-  return values_of(cells(mean(layer), {}));
-}
-
-template <int D>
-std::vector<double> StructureByLayer<D>::bed_row() const
-{
-  return values_of(cells(mean(), heights()));
 }
 
 template <int D>

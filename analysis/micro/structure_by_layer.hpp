@@ -28,13 +28,13 @@ class StructureByLayer {
   std::size_t layers() const { return sums_.size(); }
   StructureSums<D> mean(std::size_t layer) const;
   StructureSums<D> mean() const;
-  BedHeights heights() const;
+  BedHeights heights() const { return heights_ / static_cast<double>(frames_); }
 
   /// The columns of grseg-micro from area_S or volume_S on, and the values of a layer and of the
   /// whole bed.
-  static std::vector<std::string> columns();
-  std::vector<double> row(std::size_t layer) const;
-  std::vector<double> bed_row() const;
+  static std::vector<std::string> columns() { return columns_of(cells({}, {})); }
+  std::vector<double> row(std::size_t layer) const { return values_of(cells(mean(layer), {})); }
+  std::vector<double> bed_row() const { return values_of(cells(mean(), heights())); }
 
  private:
   std::size_t holding(const Vector<D>& position) const
@@ -45,6 +45,11 @@ class StructureByLayer {
   void add_contacts(const Grains& grains, const Frame<D>& frame);
   /// Whether a contact slides, as 1 or 0; NaN where friction is unknown.
   double slides(double f_n, double f_t) const;
+  static std::vector<Cell> cells(const StructureSums<D>& sums, const BedHeights& heights)
+  {
+    auto cells = sums.cells();
+    return add_all(cells, grseg::cells(heights));
+  }
   void add_ends(const Grains& grains, const Frame<D>& frame, std::size_t contact, PairType type);
 
   Layers layers_;

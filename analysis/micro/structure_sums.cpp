@@ -20,18 +20,13 @@ struct ColumnName {
 };
 
 constexpr std::array<const char*, 3> vector_components{"x", "y", "z"};
-constexpr std::array<std::array<const char*, 3>, 3> tensor_suffixes{
-    {{"_xx", "_xy", "_xz"}, {"_yx", "_yy", "_yz"}, {"_zx", "_zy", "_zz"}}};
 
 /// Calls use(name, whose, number) with all components of a tensor.
 template <class Tensor, class Use>
 void visit_tensor(Tensor& t, const char* stem, const char* unit, const char* whose, const Use& use)
 {
-  for (Eigen::Index row = 0; row < t.rows(); ++row)
-    for (Eigen::Index column = 0; column < t.cols(); ++column)
-      use({stem, tensor_suffixes[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)],
-           unit},
-          whose, t(row, column));
+  for (const auto& [suffix, row, column] : tensor_components(static_cast<int>(t.rows())))
+    use({stem, suffix.c_str(), unit}, whose, t(row, column));
 }
 
 template <class Fabric, class Use>
@@ -65,8 +60,8 @@ void visit_pair(Sums& sums, const char* whose, const char* stress, const Use& us
   visit_tensor(sums.stress, "{}", "[N m]", stress, use);
 }
 
-/// The one list of all sums, in the order of the table: use(name, whose, number). A new sum is
-/// added here and as a member; table, reading, merging and scaling follow.
+/// All sums in the order of the table: use(name, whose, number). A new sum is added here and as a
+/// member; writing and reading follow.
 template <class Sums, class Use>
 void visit(Sums& sums, const Use& use)
 {
@@ -88,51 +83,7 @@ void visit(Sums& sums, const Use& use)
         sums.base_force[static_cast<Eigen::Index>(axis)]);
 }
 
-template <int D, class Change>
-StructureSums<D> changed(StructureSums<D> sums, const Change& change)
-{
-  visit(sums, [&](const ColumnName&, const char*, double& number) { number = change(number); });
-  return sums;
-}
-
-/// Adds every number that `visit_all` visits.
-template <class Sums, class Visit>
-void add(Sums& sums, const Sums& others, const Visit& visit_all)
-{
-  std::vector<double> values;
-  visit_all(others,
-            [&](const ColumnName&, const char*, double number) { values.push_back(number); });
-  auto value = values.begin();
-  visit_all(sums, [&](const ColumnName&, const char*, double& number) { number += *value++; });
-}
-
 }  // namespace
-
-template <int D>
-PairSums<D>& PairSums<D>::operator+=(const PairSums& others)
-{
-  add(*this, others, [](auto& sums, const auto& use) { visit_pair(sums, "", "", use); });
-  return *this;
-}
-
-template <int D>
-StructureSums<D>& StructureSums<D>::operator+=(const StructureSums& others)
-{
-  add(*this, others, [](auto& sums, const auto& use) { visit(sums, use); });
-  return *this;
-}
-
-template <int D>
-StructureSums<D> StructureSums<D>::operator*(double factor) const
-{
-  return changed(*this, [factor](double number) { return number * factor; });
-}
-
-template <int D>
-StructureSums<D> StructureSums<D>::operator/(double divisor) const
-{
-  return changed(*this, [divisor](double number) { return number / divisor; });
-}
 
 template <int D>
 PairSums<D> StructureSums<D>::between_grains() const
@@ -209,8 +160,6 @@ StructureSums<D> StructureSums<D>::from_values(const std::vector<double>& values
   return sums;
 }
 
-template struct PairSums<2>;
-template struct PairSums<3>;
 template struct StructureSums<2>;
 template struct StructureSums<3>;
 

@@ -8,6 +8,7 @@
 #include "formats/core/species.hpp"
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -36,7 +37,9 @@ struct PairSums {
   Tensor<D> stress =
       Tensor<D>::Zero();  // N m, force (x) branch, at the base cut at the contact point
 
-  PairSums& operator+=(const PairSums& others);
+  static constexpr auto members =
+      std::tuple(&PairSums::contacts, &PairSums::force, &PairSums::normal, &PairSums::mobilised,
+                 &PairSums::sliding, &PairSums::strong, &PairSums::fabric, &PairSums::stress);
 };
 
 /// Grains of one species and the contact ends on them, in the layer of the grain's centre.
@@ -46,6 +49,10 @@ struct SpeciesSums {
   double ends = 0;        // all of them, those of base contacts included
   double mixed_ends = 0;  // of contacts with a grain of the other species
   double base_ends = 0;   // of contacts with boundary grains and walls
+
+  static constexpr auto members =
+      std::tuple(&SpeciesSums::content, &SpeciesSums::grains, &SpeciesSums::ends,
+                 &SpeciesSums::mixed_ends, &SpeciesSums::base_ends);
 };
 
 /// Grains, contacts and forces in a layer or in the whole bed: sums, as means per frame. Sums of
@@ -59,9 +66,9 @@ struct StructureSums {
   Tensor<D> mixed_size = Tensor<D>::Zero();    // N m, of LS, the large grain's part by size
   Vector<D> base_force = Vector<D>::Zero();    // N, of the base on the mobile grains
 
-  StructureSums& operator+=(const StructureSums& others);
-  StructureSums operator*(double factor) const;
-  StructureSums operator/(double divisor) const;
+  static constexpr auto members =
+      std::tuple(&StructureSums::species, &StructureSums::pair, &StructureSums::mixed_size,
+                 &StructureSums::base_force);
 
   const SpeciesSums& of(Species s) const { return species[static_cast<std::size_t>(s)]; }
   const PairSums<D>& of(PairType type) const { return pair[static_cast<std::size_t>(type)]; }

@@ -2,8 +2,16 @@
 #include "analysis/micro/sums_table.hpp"
 
 #include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
+#include "analysis/micro/derived_quantities.hpp"
+#include "analysis/micro/sums_table.hpp"
+#include "formats/cli/output.hpp"
+#include "formats/cli/provenance.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/frame.hpp"
+#include "formats/core/length.hpp"
 
 #include <fmt/format.h>
 
@@ -95,20 +103,13 @@ std::vector<SumsRow<D>> read_sums_rows(const Table& table)
   rows.reserve(table.rows.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& numbers = table.rows[r];
-    const auto& key = keys[r];
     std::vector<double> values;
     values.reserve(sums.size());
     for (const auto& sum : sums) values.push_back(value_of(table, r, sum));
-    rows.push_back(
-        {.begin = key.begin,
-         .end = key.end,
-         .bottom = key.bottom,
-         .top = key.top,
-         .frames = key.frames,
-         .volume = key.volume,
-         .sums = StructureSums<D>::from_values(values),
-         .heights = {numbers[of_heights[0]], numbers[of_heights[1]], numbers[of_heights[2]]},
-         .bed_height = no_number});
+    rows.push_back({keys[r],
+                    StructureSums<D>::from_values(values),
+                    {numbers[of_heights[0]], numbers[of_heights[1]], numbers[of_heights[2]]},
+                    no_number});
   }
   set_bed_heights(rows);
   return rows;
@@ -127,55 +128,28 @@ bool same_layer(const SumsRow<D>& a, const SumsRow<D>& b)
   return std::abs(a.bottom - b.bottom) <= round_off && std::abs(a.top - b.top) <= round_off;
 }
 
-/// The sums behind a mean weighted by frames.
+/// The mean, weighted by frames.
 template <int D>
-class MergedRow {
- public:
-  void add(const SumsRow<D>& row)
-  {
-    const double w = row.frames;
-    all_.frames += w;
-    all_.volume += w * row.volume;
-    all_.sums += row.sums * w;
-    all_.heights.large += w * row.heights.large;
-    all_.heights.small += w * row.heights.small;
-    all_.heights.bed += w * row.heights.bed;
-    all_.bed_height += w * row.bed_height;
-    all_.begin = std::min(all_.begin, row.begin);
-    all_.end = std::max(all_.end, row.end);
-    if (rows_ == 0) {
-      all_.bottom = row.bottom;
-      all_.top = row.top;
-    } else if (!same_layer(row, all_)) {
-      all_.bottom = all_.top = no_number;
-    }
-    ++rows_;
+SumsRow<D> merged(const std::vector<SumsRow<D>>& rows)
+{
+  const auto& first = rows.front();
+  SumsRow<D> mean{{first.begin, first.end, first.bottom, first.top}, {}, {0, 0, 0}, 0};
+  for (const auto& row : rows) {
+    mean.frames += row.frames;
+    mean.volume += row.frames * row.volume;
+    mean.sums += row.sums * row.frames;
+    mean.heights += row.heights * row.frames;
+    mean.bed_height += row.frames * row.bed_height;
+    mean.begin = std::min(mean.begin, row.begin);
+    mean.end = std::max(mean.end, row.end);
+    if (!same_layer(row, first)) mean.bottom = mean.top = no_number;
   }
-
-  SumsRow<D> mean() const
-  {
-    SumsRow<D> row = all_;
-    const double frames = all_.frames;
-    row.volume /= frames;
-    row.sums = all_.sums / frames;
-    row.heights = {all_.heights.large / frames, all_.heights.small / frames,
-                   all_.heights.bed / frames};
-    row.bed_height /= frames;
-    return row;
-  }
-
- private:
-  std::size_t rows_ = 0;
-  SumsRow<D> all_{.begin = std::numeric_limits<double>::infinity(),
-                  .end = -std::numeric_limits<double>::infinity(),
-                  .bottom = no_number,
-                  .top = no_number,
-                  .frames = 0,
-                  .volume = 0,
-                  .sums = {},
-                  .heights = {0, 0, 0},
-                  .bed_height = 0};
-};
+  mean.volume /= mean.frames;
+  mean.sums = mean.sums / mean.frames;
+  mean.heights = mean.heights / mean.frames;
+  mean.bed_height /= mean.frames;
+  return mean;
+}
 
 /// Rows with the same key are merged; the whole bed has its own, after all layers.
 template <int D>
@@ -197,11 +171,9 @@ std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& 
   for (const auto& row : rows)
     if (!row.is_bed())
       layers.push_back({row.bottom, row.top, row.frames, row.sums.content() / row.volume});
-  const auto heights = parse_heights(filter.heights, units, layers);
+  const RowRange range{filter.begin, filter.end, parse_heights(filter.heights, units, layers)};
   std::erase_if(rows, [&](const SumsRow<D>& row) {
-    const double time_slack = 1e-9 * (1 + std::abs(row.begin) + std::abs(row.end));
-    return row.begin < filter.begin - time_slack || row.end > filter.end + time_slack ||
-           !heights.holds(row.bottom, row.top);
+    return !range.holds_window(row) || !range.holds_layer(row);
   });
   return rows;
 }
@@ -210,14 +182,13 @@ template <int D>
 std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool)
 {
   if (pool == Pool::none) return rows;
-  std::map<double, MergedRow<D>> merged;
+  std::map<double, std::vector<SumsRow<D>>> pools;
   for (const auto& row : rows) {
     if (pool == Pool::composition && (row.is_bed() || std::isnan(row.sums.phi_large()))) continue;
-    merged[pool_key(row, pool)].add(row);
+    pools[pool_key(row, pool)].push_back(row);
   }
   std::vector<SumsRow<D>> result;
-  result.reserve(merged.size());
-  for (const auto& [key, row] : merged) result.push_back(row.mean());
+  for (const auto& [key, of_pool] : pools) result.push_back(merged(of_pool));
   return result;
 }
 
@@ -225,5 +196,157 @@ template std::vector<SumsRow<2>> filtered(std::vector<SumsRow<2>>, const RowFilt
 template std::vector<SumsRow<3>> filtered(std::vector<SumsRow<3>>, const RowFilter&, LengthUnits);
 template std::vector<SumsRow<2>> pooled(const std::vector<SumsRow<2>>&, Pool);
 template std::vector<SumsRow<3>> pooled(const std::vector<SumsRow<3>>&, Pool);
+
+namespace {
+
+constexpr Choice<ContactForce> force_words[] = {{"modulus", ContactForce::modulus},
+                                                {"normal", ContactForce::normal}};
+constexpr Choice<ForceAverage> average_words[] = {{"contacts", ForceAverage::contacts},
+                                                  {"ends", ForceAverage::ends}};
+constexpr Choice<Pool> pool_words[] = {
+    {"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}};
+
+/// The others need sums that are not in this table.
+bool is_known(const RuleDefinition& rule)
+{
+  return !rule.sum || rule.sum == PairSum::by_size;
+}
+
+std::vector<std::string> known_rules()
+{
+  return words_of_rule(is_known);
+}
+
+PartitionRule rule_of(const DerivedOptions& options)
+{
+  const auto rule = parse_rule(options.partition);
+  if (!is_known(rule.definition()))
+    throw UsageError(fmt::format("--partition {}: grseg-derive takes {}", rule.name(),
+                                 list_of_words(known_rules())));
+  return rule;
+}
+
+/// Heights: a profile has all layers, what pools them those inside the bed.
+std::string heights_of(const DerivedOptions& options)
+{
+  if (!options.heights.empty()) return options.heights;
+  return options.pool == "composition" ? inside_the_bed : "all";
+}
+
+RowFilter filter_of(const DerivedOptions& options)
+{
+  RowFilter filter;
+  filter.begin = options.begin.value_or(filter.begin);
+  filter.end = options.end.value_or(filter.end);
+  filter.heights = heights_of(options);
+  return filter;
+}
+
+[[noreturn]] void refuse_difference(const Table& first, const Table& other, const char* key)
+{
+  throw UsageError(fmt::format("{} and {} differ in '{}'; derive from each of them separately",
+                               first.name, other.name, key));
+}
+
+void require_same_constants(const Table& first, const Table& other)
+{
+  for (const char* key : {"small_diameter", "large_diameter", "gravity_x", "gravity_y", "density",
+                          "friction", "layer", "composition"})
+    if (!same_setting(first.header_text(key), other.header_text(key)))
+      refuse_difference(first, other, key);
+  for (const char* key : {"gravity_z", "species", "mean_density"})  // not in all tables
+    if (!same_setting(header_or(first, key, ""), header_or(other, key, "")))
+      refuse_difference(first, other, key);
+}
+
+/// The settings of the first table, and those of what is derived.
+void add_settings(Header& header, const Table& first, const DerivedOptions& options)
+{
+  for (const auto& line : settings_of(first))
+    if (line.first != "preset") header.push_back(line);
+  const std::string depth = options.depth.empty() ? "height of the bed" : options.depth;
+  header.insert(header.end(), {{"force", options.force},
+                               {"average", options.average},
+                               {"partition", options.partition},
+                               {"depth", depth},
+                               {"heights", heights_in_words(heights_of(options))},
+                               {"pool", options.pool}});
+}
+
+template <int D>
+std::vector<SumsRow<D>> read_rows(const std::vector<Table>& tables)
+{
+  std::vector<SumsRow<D>> rows;
+  for (const auto& table : tables) {
+    if (dimension_of(table) != D) refuse_difference(tables[0], table, "dimension");
+    add_all(rows, read_sums_rows<D>(table));
+    require_same_constants(tables[0], table);
+  }
+  return rows;
+}
+
+}  // namespace
+
+void DerivedOptions::add_to(po::options_description& options)
+{
+  auto add = options.add_options();
+  add("force", word_option(&force, words_of(force_words)),
+      "the force of a contact, modulus or normal (its normal part)");
+  add("average", word_option(&average, words_of(average_words)),
+      "f_S and f_L are means over contacts (with at least one such grain, each counted once) or over "
+      "ends (contact ends on such grains)");
+  const auto rules = list_of_words(known_rules());
+  add("partition", word_option(&partition, known_rules()),
+      ("the large grain's share of a mixed contact in P_S and P_L: " + rules).c_str());
+  add("pool", word_option(&pool, words_of(pool_words)),
+      "which rows to merge: none, windows (each layer over all windows) or composition (layers by "
+      "phi_L)");
+  add("depth", po::value(&depth)->value_name("LENGTH"),
+      "H of the pressure at H - y by which forces are divided (default: height of the bed)");
+  add("heights", po::value(&heights)->value_name("y0:y1"),
+      fmt::format("layers that take part: {} (default: inside of layers that are pooled by "
+                  "composition, else all)",
+                  heights_help)
+          .c_str());
+  add("begin", time_option(begin), "no window that begins before this (default: all)");
+  add("end", time_option(end), "no window that ends after this (default: all)");
+}
+
+void DerivedOptions::check() const
+{
+  choose(pool, "--pool", pool_words);
+  if (!heights.empty()) check_heights(heights);
+  choose(force, "--force", force_words);
+  choose(average, "--average", average_words);
+  rule_of(*this);
+}
+
+Table derived_table(const std::vector<Table>& tables, const DerivedOptions& options,
+                    const Header& provenance)
+{
+  const auto pool = choose(options.pool, "--pool", pool_words);
+  DerivedSettings settings{{choose(options.force, "--force", force_words),
+                            choose(options.average, "--average", average_words)},
+                           rule_of(options),
+                           0};
+  Table table;
+  table.header = provenance;
+  add_settings(table.header, tables[0], options);
+  with_dimension(dimension_of(tables[0]), [&](auto d) {
+    auto rows = read_rows<d>(tables);
+    find_runs(tables);
+    const auto constants = read_run_constants(tables[0]);
+    const LengthUnits units{constants.small_diameter, constants.large_diameter};
+    if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
+    for (const auto& row : pooled(filtered(std::move(rows), filter_of(options), units), pool)) {
+      const auto derived = derived_quantities(row, constants, settings);
+      if (table.columns.empty()) table.columns = with_key_columns(d, columns_of(derived));
+      table.rows.push_back(with_key(row, values_of(derived)));
+    }
+  });
+  if (table.rows.empty())
+    throw RunError("no row is left; choose another --begin, --end or --heights");
+  return table;
+}
 
 }  // namespace grseg

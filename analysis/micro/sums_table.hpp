@@ -4,9 +4,13 @@
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/micro/structure_sums.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/tool.hpp"
 
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -16,11 +20,7 @@ namespace grseg {
 /// A row of the table, or several merged; y0 = y1 = NaN for the whole bed and where different
 /// layers were merged.
 template <int D>
-struct SumsRow {
-  double begin, end;   // s
-  double bottom, top;  // m
-  double frames;
-  double volume;  // m^2 or m^3
+struct SumsRow : LayerKey {
   StructureSums<D> sums;
   BedHeights heights;  // means per frame; NaN in layers
   double bed_height;   // m, of the whole bed in the same window
@@ -64,5 +64,24 @@ enum class Pool {
 /// Means weighted by frames. With `composition` the whole bed's rows and empty layers are left out.
 template <int D>
 std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
+
+/// What grseg-derive makes of sums, as given on the command line.
+struct DerivedOptions {
+  std::string force = "modulus", average = "contacts", partition = "size", pool = "none", depth,
+              heights;
+  std::optional<double> begin = {}, end = {};  // s, of the windows
+
+  /// Adds --force --average --partition --pool --depth --heights --begin --end.
+  void add_to(po::options_description& options);
+  /// UsageError where a word is unknown, before any table is read.
+  void check() const;
+};
+
+/// The quantities that follow from tables of grseg-micro (derived_quantities.hpp), with `provenance` as
+/// the first lines of its header and the settings of the first table behind it. UsageError where
+/// options have no meaning or tables of different grains are given together; RunError where no row is
+/// left.
+Table derived_table(const std::vector<Table>& tables, const DerivedOptions& options,
+                    const Header& provenance);
 
 }  // namespace grseg

@@ -2,6 +2,7 @@
 #include "analysis/segregation/rates.hpp"
 
 #include "analysis/frames/sums.hpp"
+#include "analysis/segregation/rates.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 #include "analysis/statistics/least_squares.hpp"
 #include "formats/core/errors.hpp"
@@ -10,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -280,5 +282,100 @@ NamedNumbers segregation_rates(const std::vector<RatePoint>& points)
                                 (std::isfinite(estimate.value) ? "an interval" : "a value"));
   return summary;
 }
+
+namespace {
+
+using Moment = BedState;
+
+struct BedColumn {
+  const char* column;
+  double Moment::*place;
+};
+constexpr std::array bed_columns{
+    BedColumn{"yL[m]", &Moment::large},   BedColumn{"yS[m]", &Moment::small},
+    BedColumn{"height[m]", &Moment::bed}, BedColumn{"shear_rate[1/s]", &Moment::shear_rate},
+    BedColumn{"strain", &Moment::strain}, BedColumn{"mixing", &Moment::mixing}};
+
+Moment mean_of_last(const std::vector<Moment>& moments, std::size_t count)
+{
+  Moment mean;
+  for (const auto& [column, place] : bed_columns) {
+    for (std::size_t k = moments.size() - count; k < moments.size(); ++k)
+      mean.*place += moments[k].*place;
+    mean.*place /= static_cast<double>(count);
+  }
+  return mean;
+}
+
+std::vector<Cell> cells(const Moment& bed)
+{
+  std::vector<Cell> cells;
+  cells.reserve(bed_columns.size());
+  for (const auto& [column, place] : bed_columns) cells.push_back({column, bed.*place});
+  return cells;
+}
+
+}  // namespace
+
+template <int D>
+SegregationTable<D>::SegregationTable(const Layers& layers, double small_diameter,
+                                      double large_diameter)
+    : layers_(layers),
+      small_diameter_(small_diameter),
+      large_diameter_(large_diameter),
+      series_(layers)
+{
+}
+
+template <int D>
+void SegregationTable<D>::add(const Grains& grains, const SegregationSeries<D>& series,
+                              const SegregationFlux<D>& flux)
+{
+  series_.merge(series);
+  const auto count = series.moments().size();
+  bed_ = mean_of_last(series_.moments(), count);
+  results_ = flux.results(grains, bed_.bed);
+  for (std::size_t n = 0; n < results_.size(); ++n) {
+    const auto& result = results_[n];
+    const double phi = result.value.phi_large;
+    points_.push_back({windows_.size(), layers_.bottom(n), layers_.top(n),
+                       (result.content_small + result.content_large) / layers_.volume(n),
+                       (1 - phi) * small_diameter_ + phi * large_diameter_, bed_.bed, result});
+  }
+  windows_.push_back(count);
+}
+
+template <int D>
+std::vector<std::string> SegregationTable<D>::columns()
+{
+  auto names = columns_of(SegregationResult{}.cells(D));
+  return add_all(names, columns_of(cells(Moment{})));
+}
+
+template <int D>
+std::vector<double> SegregationTable<D>::row(std::size_t layer) const
+{
+  auto row = values_of(results_[layer].cells(D));
+  row.resize(row.size() + bed_columns.size(), no_number);
+  return row;
+}
+
+template <int D>
+std::vector<double> SegregationTable<D>::bed_row() const
+{
+  std::vector<double> row(SegregationResult{}.cells(D).size(), no_number);
+  return add_all(row, values_of(cells(bed_)));
+}
+
+template <int D>
+NamedNumbers SegregationTable<D>::summary(const RateFilter& filter) const
+{
+  auto summary = segregation_times(series_.moments(), windows_);
+  summary.append(segregation_rates(filtered(points_, filter, {small_diameter_, large_diameter_})));
+  return summary;
+}
+
+template class SegregationTable<2>;
+template class SegregationTable<3>;
 
 }  // namespace grseg

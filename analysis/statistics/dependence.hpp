@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace grseg {
@@ -15,6 +16,16 @@ std::size_t number_of_windows(const RunLengths& runs);
 inline Eigen::Index index(std::size_t window)
 {
   return static_cast<Eigen::Index>(window);
+}
+
+/// What `of`, a function or a member, says of each in a list.
+template <class List, class Of>
+Eigen::VectorXd numbers_of(const List& list, const Of& of)
+{
+  Eigen::VectorXd numbers(index(list.size()));
+  Eigen::Index place = 0;
+  for (const auto& one : list) numbers[place++] = std::invoke(of, one);
+  return numbers;
 }
 
 /// How far the windows of a series are from independent.

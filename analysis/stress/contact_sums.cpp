@@ -26,36 +26,6 @@ std::string own_name(const ContactSumColumns& sum, const std::string& word, bool
 
 }  // namespace
 
-template <int D>
-ContactSums<D>& ContactSums<D>::operator+=(const ContactSums& others)
-{
-  volume += others.volume;
-  at_centres |= others.at_centres;
-  for (std::size_t k = 0; k < own_.size(); ++k) {
-    content[k] += others.content[k];
-    for (std::size_t sum = 0; sum < own_sums; ++sum) own_[k][sum] += others.own_[k][sum];
-  }
-  for (std::size_t k = 0; k < pair_.size(); ++k)
-    for (std::size_t sum = 0; sum < pair_sums; ++sum) pair_[k][sum] += others.pair_[k][sum];
-  return *this;
-}
-
-template <int D>
-ContactSums<D> ContactSums<D>::operator/(double number) const
-{
-  ContactSums part = *this;
-  part.volume /= number;
-  for (auto& content_of_species : part.content) content_of_species /= number;
-  for (auto& sums : part.own_)
-    for (auto& sum : sums) sum /= number;
-  for (auto& sums : part.pair_)
-    for (auto& sum : sums) sum /= number;
-  return part;
-}
-
-template class ContactSums<2>;
-template class ContactSums<3>;
-
 std::vector<TensorComponent> tensor_components(int dimension)
 {
   std::vector<TensorComponent> components;
@@ -86,8 +56,7 @@ std::vector<NamedSum> named_sums(const SpeciesList& species, const TableKind& ki
 {
   std::vector<NamedSum> all;
   for (const auto in : {InTables::all, InTables::at_centres, InTables::power})
-    if (kind.has(in))
-      for (auto& sum : named_sums(species, in)) all.push_back(std::move(sum));
+    if (kind.has(in)) add_all(all, named_sums(species, in));
   return all;
 }
 

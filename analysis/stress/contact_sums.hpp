@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/sums.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/species.hpp"
 
 #include <array>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -81,8 +83,12 @@ class ContactSums {
     return pair_[pair][static_cast<std::size_t>(sum)];
   }
 
-  ContactSums& operator+=(const ContactSums& others);
-  ContactSums operator/(double number) const;
+  ContactSums& operator+=(const ContactSums& others)
+  {
+    at_centres |= others.at_centres;
+    accumulate(*this, others);
+    return *this;
+  }
 
  private:
   template <std::size_t N>
@@ -95,6 +101,10 @@ class ContactSums {
 
   std::vector<std::array<Tensor<D>, own_sums>> own_;
   std::vector<std::array<Tensor<D>, pair_sums>> pair_;
+
+ public:
+  static constexpr auto members = std::tuple(&ContactSums::volume, &ContactSums::content,
+                                             &ContactSums::own_, &ContactSums::pair_);
 };
 
 /// Which tables of grseg-stress have a column.

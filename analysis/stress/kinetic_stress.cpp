@@ -113,15 +113,6 @@ std::vector<std::string> freedoms()
 }  // namespace
 
 template <int D>
-Fluctuations<D> Fluctuations<D>::operator/(double number) const
-{
-  return {kinetic / number, rotational / number};
-}
-
-template struct Fluctuations<2>;
-template struct Fluctuations<3>;
-
-template <int D>
 typename KineticStress<D>::Temperatures KineticStress<D>::Mean::temperature() const
 {
   if (!(mass > 0)) return Temperatures::Constant(no_number);
@@ -136,25 +127,6 @@ KineticStress<D>::KineticStress(const Layers& layers, MeanFlow flow, const MeanV
     : layers_(layers), flow_(flow), mean_velocity_(mean), species_(species)
 {
   mean_velocity_.finish();
-}
-
-template <int D>
-Motion<D> KineticStress<D>::mean_in(std::size_t layer, Species species,
-                                    const MeanVelocity<D>& now) const
-{
-  switch (flow_) {
-    case MeanFlow::profile:
-    case MeanFlow::profile_unbiased:
-    case MeanFlow::instant_unbiased:
-      break;  // have no mean by layer
-    case MeanFlow::layer:
-      return mean_velocity_.of_layer(layer);
-    case MeanFlow::instant:
-      return now.of_layer(layer);
-    case MeanFlow::species:
-      return mean_velocity_.of_species(layer, species);
-  }
-  return Motion<D>::Constant(no_number);
 }
 
 template <int D>
@@ -174,14 +146,14 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position);
     const Motion<D> motion = motion_of<D>(layers_, frame, g);
-    const auto species = grains.species[g];
+    const auto species = static_cast<std::size_t>(grains.species[g]);
     const std::size_t layer = layers_.holding<D>(position, y);
     const auto about = [&](const Motion<D>& mean) {
       return fluctuations<D>(mass, radius, motion - mean);
     };
     sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer),
                                       motion.template head<D>());
-    auto& own = sums_[layer].species[static_cast<std::size_t>(species)];
+    auto& own = sums_[layer].species[species];
     std::optional<MotionProduct<D>> product;  // where the mean is without the grain
     if (unbiased && unbiased->has(layer)) product = unbiased->of(layer, mass, motion);
     if (flow_ == MeanFlow::profile_unbiased)
@@ -196,8 +168,10 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     if (product) {
       own.about_mean +=
           {mass * product->velocities, moment_of_inertia<D>(mass, radius) * product->spins};
+    } else if (flow_ == MeanFlow::species) {
+      own.about_mean += about(mean_velocity_.of_species(layer, grains.species[g]));
     } else if (flow_ != MeanFlow::profile) {
-      own.about_mean += about(mean_in(layer, species, now));
+      own.about_mean += about((flow_ == MeanFlow::instant ? now : mean_velocity_).of_layer(layer));
     }
     if (!has_profile) continue;
     const auto about_profile = about(mean_velocity_.on_profile(y));
@@ -219,11 +193,7 @@ void KineticStress<D>::merge(const KineticStress& others)
 template <int D>
 typename KineticStress<D>::Mean KineticStress<D>::mean(std::size_t layer, Species species) const
 {
-  const auto& sum = sums_[layer].species[static_cast<std::size_t>(species)];
-  const auto frames = static_cast<double>(frames_);
-  return {sum.mass / frames,      sum.content / frames,  sum.grains / frames,
-          sum.left_out / frames,  sum.own_part / frames, sum.about_mean / frames,
-          sum.layer_bias / frames};
+  return sums_[layer].species[static_cast<std::size_t>(species)] / static_cast<double>(frames_);
 }
 
 template <int D>

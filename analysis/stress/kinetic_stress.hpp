@@ -68,7 +68,6 @@ struct Fluctuations {
   double rotational = 0;
 
   static constexpr auto members = std::tuple(&Fluctuations::kinetic, &Fluctuations::rotational);
-  Fluctuations operator/(double number) const;
 };
 
 /// Kinetic stress by layer and species, sigma^kappa = (1/V) sum m dv (x) dv (Staron & Phillips
@@ -140,7 +139,6 @@ class KineticStress {
     LayerFlowSums flow;
     static constexpr auto members = std::tuple(&Sums::species, &Sums::flow);
   };
-  Motion<D> mean_in(std::size_t layer, Species species, const MeanVelocity<D>& now) const;
 
   Layers layers_;
   MeanFlow flow_;

@@ -3,6 +3,7 @@
 
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
+#include "analysis/frames/sums.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 
@@ -207,12 +208,11 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
     for (const auto& line : table.header)
       if (is_source(line.first)) merged.header.push_back(line);
   merged.header.emplace_back("history", command);
-  for (auto& line : trust_of(tables)) merged.header.push_back(std::move(line));
+  add_all(merged.header, trust_of(tables));
   if (!doubt.empty()) merged.header.emplace_back("doubt", doubt);
-  for (const auto& line : settings_of(tables[0])) merged.header.push_back(line);
+  add_all(merged.header, settings_of(tables[0]));
   merged.columns = tables[0].columns;
-  for (const auto& [window, of_window] : windows)
-    for (auto& row : merged_rows(of_window)) merged.rows.push_back(std::move(row));
+  for (const auto& [window, of_window] : windows) add_all(merged.rows, merged_rows(of_window));
   if (all_windows && !merged.rows.empty()) {
     // In whole steps, since 2.2 - 2 is not 0.2.
     const auto [begin, end] = whole_of(parts);

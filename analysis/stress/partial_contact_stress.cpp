@@ -191,16 +191,14 @@ template <int D>
 std::vector<std::string> PartialContactStress<D>::columns(const SpeciesList& species) const
 {
   auto names = contact_number_columns(species);
-  for (auto& name : sum_column_names(species, table_kind())) names.push_back(std::move(name));
-  return names;
+  return add_all(names, sum_column_names(species, table_kind()));
 }
 
 template <int D>
 std::vector<double> PartialContactStress<D>::row(std::size_t layer) const
 {
   auto [row, sums] = mean(layer);
-  for (const double number : sum_cells(sums, table_kind())) row.push_back(number);
-  return row;
+  return add_all(row, sum_cells(sums, table_kind()));
 }
 
 template class PartialContactStress<2>;

@@ -66,25 +66,25 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const Kernel kernel(shape, parse_length(s.width, "--kernel-width", units));
   const auto rules = without_repeats(parse_rules(s.partition));
-  auto columns = balance_columns<D>(species);
-  if (!rules.empty())
-    for (auto& column : partition_columns<D>(species, rules)) columns.push_back(std::move(column));
-  TableWriter table(loop, command, settings_of(s, kernel, rules), columns);
-
   BalanceSummary<D> summary(loop.layers(), run.large_diameter());
   PartitionSummary<D> by_rule(loop.layers(), run.large_diameter(), rules);
   const MomentumBalance<D> no_grains(loop.layers(), kernel, run.gravity<D>(), run.step(),
                                      species.size());
   const PartitionedBalance<D> no_contacts(loop.layers(), kernel, rules, species.size());
+  const auto cells_of = [&](const MomentumBalance<D>& balance,
+                            const PartitionedBalance<D>& contacts,
+                            std::optional<std::size_t> layer) {
+    auto cells = balance_cells(balance, species, layer);
+    if (!rules.empty()) add_all(cells, partition_cells(balance, contacts, species, layer));
+    return cells;
+  };
+  TableWriter table(loop, command, settings_of(s, kernel, rules),
+                    columns_of(cells_of(no_grains, no_contacts, std::nullopt)));
   for (const auto& window : loop.windows()) {
     const auto [balance, contacts] = loop.sum<D>(
         window, {.velocity = true, .contacts = true, .force = true}, no_grains, no_contacts);
-    for (std::size_t layer = 0; layer < balance.layers(); ++layer) {
-      auto row = balance_row(balance, layer);
-      if (!rules.empty())
-        for (const double value : partition_row(balance, contacts, layer)) row.push_back(value);
-      table.add(window, layer, row);
-    }
+    for (std::size_t layer = 0; layer < balance.layers(); ++layer)
+      table.add(window, layer, values_of(cells_of(balance, contacts, layer)));
     summary.add(balance);
     if (!rules.empty()) by_rule.add(balance, contacts);
   }

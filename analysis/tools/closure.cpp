@@ -107,7 +107,7 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
                                {"over", closure_population(data.runs.size())},
                                {"bootstrap", fmt::format("{}", s.bootstrap)},
                                {"seed", fmt::format("{}", s.seed)}});
-  for (auto& line : s.filter.lines()) header.push_back(std::move(line));
+  add_all(header, s.filter.lines());
   const auto summary = closure_summary(
       data, rules, {static_cast<std::size_t>(s.bootstrap), static_cast<unsigned long>(s.seed)});
   write_numbers(summary, header, info, s.output, s.json, s.quiet);

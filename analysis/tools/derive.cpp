@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_table.hpp"
 #include "analysis/frames/presets.hpp"
-#include "analysis/micro/derived_table.hpp"
+#include "analysis/micro/sums_table.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"

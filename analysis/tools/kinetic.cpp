@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/presets.hpp"
 #include "analysis/frames/table_writer.hpp"
-#include "analysis/frames/velocity_in_step.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/kinetic_table.hpp"
 #include "analysis/tools/tool_main.hpp"

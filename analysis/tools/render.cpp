@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_options.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/render/render_run.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/provenance.hpp"
@@ -55,9 +56,9 @@ po::options_description options_into(Settings& s)
 std::string history_of(const TrajectoryReader& run, const std::string& command)
 {
   auto lines = provenance(info, "none", run, command);
-  for (auto& line : verification_lines(run)) lines.push_back(std::move(line));
   std::string text;
-  for (const auto& [key, value] : lines) text += fmt::format("{}: {}\n", key, value);
+  for (const auto& [key, value] : add_all(lines, verification_lines(run)))
+    text += fmt::format("{}: {}\n", key, value);
   return text;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/presets.hpp"
 #include "analysis/frames/table_writer.hpp"
-#include "analysis/segregation/segregation_table.hpp"
+#include "analysis/segregation/rates.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
@@ -67,7 +67,7 @@ void tabulate(FrameLoop& loop, const Settings& s, const std::string& command)
   }
   if (!s.summary) return table.write();
   auto header = table.table().header;
-  for (auto& line : s.filter.lines()) header.push_back(std::move(line));
+  add_all(header, s.filter.lines());
   write_numbers(run.summary(s.filter), header, info, s.frames.output, s.frames.json,
                 s.frames.quiet);
 }

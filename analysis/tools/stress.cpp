@@ -86,9 +86,8 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
     return map ? stress_fields(sums, species, how) : std::vector<Cell>{};
   };
   auto columns = content_columns(species, D);
-  for (const auto& more :
-       {no_contacts.columns(species), columns_of(fields_of(ContactSums<D>(species.size())))})
-    columns.insert(columns.end(), more.begin(), more.end());
+  add_all(columns, no_contacts.columns(species));
+  add_all(columns, columns_of(fields_of(ContactSums<D>(species.size()))));
   TableWriter table(loop, command, settings, columns);
 
   for (const auto& window : loop.windows()) {
@@ -99,9 +98,8 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
       auto sums = map ? stress.mean(layer).sums : ContactSums<D>(0);
       sums.content = row;
       sums.volume = loop.layers().volume(layer);
-      for (const auto& more : {stress.row(layer), values_of(fields_of(sums))})
-        row.insert(row.end(), more.begin(), more.end());
-      table.add(window, layer, row);
+      add_all(row, stress.row(layer));
+      table.add(window, layer, add_all(row, values_of(fields_of(sums))));
     }
   }
   table.write(map ? "" : "grseg-fit");

@@ -133,7 +133,7 @@ export function fitOf(fit, rule) {
 }
 
 /**
- * The share of all mixed contacts that gives the same B (line_over_share.hpp). Of more than two species it is not in the
+ * The share of all mixed contacts that gives the same B (rule_fit.hpp). Of more than two species it is not in the
  * sums of the pair, which hold contacts with the others: NaN but where the rule itself says it.
  */
 export function shareOf(fit, rule) {

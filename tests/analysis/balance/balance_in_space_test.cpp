@@ -217,11 +217,8 @@ TEST(BalanceInSpace, AColumnOfThreeSpeciesCarriesItsWeight)
 std::map<std::string, double> cells_of_layer(const MomentumBalance<3>& balance,
                                              const SpeciesList& species, std::size_t layer)
 {
-  const auto columns = balance_columns<3>(species);
-  const auto row = balance_row(balance, layer);
-  EXPECT_EQ(columns.size(), row.size());
   std::map<std::string, double> cells;
-  for (std::size_t c = 0; c < columns.size(); ++c) cells[columns[c]] = row[c];
+  for (const auto& [column, value] : balance_cells(balance, species, layer)) cells[column] = value;
   return cells;
 }
 

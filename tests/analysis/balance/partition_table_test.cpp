@@ -30,8 +30,9 @@ TEST(PartitionTable, EveryNumberStandsUnderItsRuleAndUnit)
   const auto frames = two_moments(12);
   const auto balance = momentum_of<2>(frames);
   const auto contacts = contacts_of<2>(frames);
-  const auto columns = partition_columns<2>(two_sizes(0.2, 0.4), all_rules);
-  const auto row = partition_row(balance, contacts, 1);
+  const auto species = two_sizes(0.2, 0.4);
+  const auto columns = columns_of(partition_cells(balance, contacts, species, std::nullopt));
+  const auto row = values_of(partition_cells(balance, contacts, species, 1));
   ASSERT_EQ(columns.size(), row.size());
   const auto forces = driving_forces(balance, 1);
   const auto half = rule_forces(forces, contacts, 1, 2);
@@ -51,8 +52,9 @@ TEST(PartitionTable, OfThreeSpeciesOfSpheresThereAreTheTermsOfEach)
   const SpeciesList species{{"SE", 0.2}, {"AM", 0.4}, {"CB", 0.6}};
   const std::vector frames{random_contacts<3>(13, 3)};
   const auto contacts = contacts_of<3>(frames, parse_rules({"half"}), 3);
-  const auto columns = partition_columns<3>(species, contacts.rules());
-  const auto row = partition_row(momentum_of<3>(frames, 3), contacts, 1);
+  const auto balance = momentum_of<3>(frames, 3);
+  const auto columns = columns_of(partition_cells(balance, contacts, species, std::nullopt));
+  const auto row = values_of(partition_cells(balance, contacts, species, 1));
   ASSERT_EQ(columns.size(), row.size());
   EXPECT_EQ(columns.size(), 3u * 2 * 3 + 3 * 3);
   EXPECT_EQ(number_under(columns, row, "interaction_CB_z@half[N/m^3]"),
@@ -64,11 +66,12 @@ TEST(PartitionTable, OfThreeSpeciesOfSpheresThereAreTheTermsOfEach)
 // A momentum density: kg m/s over m^2 or m^3.
 TEST(PartitionTable, TheDriftHasTheUnitOfAMomentumDensity)
 {
-  const auto has = [](const std::vector<std::string>& columns, const std::string& name) {
+  const auto has = [](const auto& balance, const std::string& name) {
+    const auto columns = columns_of(balance_cells(balance, two_sizes(1, 2), std::nullopt));
     return std::find(columns.begin(), columns.end(), name) != columns.end();
   };
-  EXPECT_TRUE(has(balance_columns<2>(two_sizes(1, 2)), "drift[kg/(m s)]"));
-  EXPECT_TRUE(has(balance_columns<3>(two_sizes(1, 2)), "drift[kg/(m^2 s)]"));
+  EXPECT_TRUE(has(momentum_of<2>({random_contacts<2>(12, 2)}), "drift[kg/(m s)]"));
+  EXPECT_TRUE(has(momentum_of<3>({random_contacts<3>(13, 2)}), "drift[kg/(m^2 s)]"));
 }
 
 // A ratio of sums a/b over n windows of which each adds a_k - p* b_k: variance of that over n, over the

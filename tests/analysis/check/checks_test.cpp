@@ -2,7 +2,6 @@
 // The table of checks, how a measurement is held against its tolerance, and drifts over a run.
 #include "analysis/check/checks.hpp"
 
-#include "analysis/check/check_lines.hpp"
 #include "analysis/check/physics_check.hpp"
 #include "formats/core/errors.hpp"
 

@@ -433,7 +433,7 @@ TEST(Populations, OfASingleRunHowItsFlowDiffersIsNoScatterOfItsWindows)
   Eigen::VectorXd scatter(8), weight = Eigen::VectorXd::Ones(8);
   scatter << 1, -1, 1, 1, -1, -1, -1, 1;
   const auto error_of = [&](const Eigen::VectorXd& noise) {
-    return RunErrors(data, weight).within_flows(noise, noise);
+    return RunErrors(data, weight).within_flows({noise, noise});
   };
   const auto alone = error_of(scatter / 8), shifted = error_of((scatter.array() + 7) / 8);
   EXPECT_NEAR(alone.error, std::sqrt(1. / 7), 1e-14);

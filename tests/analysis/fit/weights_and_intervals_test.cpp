@@ -87,7 +87,7 @@ TEST(IntervalByHand, RunsOfAFlowCountByWhatTheyAddAndASingleOneByTheNoiseOfItsWi
   Eigen::VectorXd sums = Eigen::VectorXd::LinSpaced(16, 100, 200), noise = sums;
   sums.head(4) << 3, 1, -1, -3;
   for (Eigen::Index k = 0; k < 12; ++k) noise[4 + k] = k / 3 % 2 == 0 ? 1 : -1;
-  const auto error = RunErrors(data, Eigen::VectorXd::Ones(16)).within_flows(sums, noise);
+  const auto error = RunErrors(data, Eigen::VectorXd::Ones(16)).within_flows({sums, noise});
   EXPECT_NEAR(error.error, std::sqrt(4. / 3 * 20 + 12 * 5 * 2.4 / 1.4), 1e-12);
 }
 

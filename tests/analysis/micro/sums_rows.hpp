@@ -12,15 +12,10 @@ namespace grseg {
 template <int D = 2>
 SumsRow<D> layer(double phi_large)
 {
-  return {.begin = 0,
-          .end = 1,
-          .bottom = 4,
-          .top = 6,
-          .frames = 10,
-          .volume = 125,
-          .sums = neutral_contacts<D>(phi_large, 2),
-          .heights = {},
-          .bed_height = 20};
+  return {{.begin = 0, .end = 1, .bottom = 4, .top = 6, .frames = 10, .volume = 125},
+          neutral_contacts<D>(phi_large, 2),
+          {},
+          20};
 }
 
 inline SumsRow<2> bed_of_height(double height, double begin)

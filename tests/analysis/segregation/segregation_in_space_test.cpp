@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spheres that separate along y.
 #include "analysis/segregation/flux.hpp"
-#include "analysis/segregation/segregation_table.hpp"
+#include "analysis/segregation/rates.hpp"
 #include "analysis/segregation/series.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
