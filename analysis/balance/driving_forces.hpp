@@ -2,7 +2,8 @@
 #pragma once
 
 #include "analysis/balance/momentum_balance.hpp"
-#include "analysis/balance/partitioned_balance.hpp"
+
+#include <tuple>
 
 namespace grseg {
 
@@ -68,6 +69,7 @@ RuleForces rule_forces(const DrivingForces& forces, const PartitionedBalance<D>&
 /// branch, which is the same at 0 and 1 and differs little in between.
 struct PushOverShare {
   double none = 0, all = 0;
+  static constexpr auto members = std::tuple(&PushOverShare::none, &PushOverShare::all);
 
   /// p*, at which the push changes its sign; without mixed contacts not a number.
   double zero() const { return none / (none - all); }

@@ -2,11 +2,11 @@
 #include "analysis/balance/momentum_balance.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "analysis/frames/sums.hpp"
 #include "formats/core/species.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -160,5 +160,179 @@ Vector<D> MomentumBalance<D>::change(std::size_t layer, Species species) const
 
 template class MomentumBalance<2>;
 template class MomentumBalance<3>;
+
+namespace {
+
+std::size_t number(Species species)
+{
+  return static_cast<std::size_t>(species);
+}
+
+}  // namespace
+
+template <int D>
+PartitionedBalance<D>::PartitionedBalance(const Layers& layers, const Kernel& kernel,
+                                          std::vector<PartitionRule> rules, std::size_t species)
+    : layers_(layers), kernel_(kernel), rules_(std::move(rules)), species_(species)
+{
+}
+
+template <int D>
+void PartitionedBalance<D>::grow_to(std::size_t layers)
+{
+  if (layers <= sums_.size()) return;
+  LayerSums empty;
+  empty.unmixed.resize(species_);
+  empty.at_centre.resize(species_, Vector<D>::Zero());
+  empty.mixed.resize(rules_.size() * species_);
+  sums_.resize(layers, empty);
+}
+
+template <int D>
+void PartitionedBalance<D>::add(const Grains& grains, const Frame<D>& frame)
+{
+  if (rules_.empty()) return;
+  ++frames_;
+  count_ = layers_.count(grains, frame);
+  grow_to(count_);
+  const auto& list = frame.contacts;
+  const auto at_height = [&](double y, const auto& book) {
+    share_kernel(layers_, kernel_, y, y, count_, book);
+  };
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (!bears_force(list, k)) continue;
+    const Vector<D>& f = list.force[k];
+    const auto pair = partners(grains, frame, k);
+    const auto i = pair.i;
+    const auto j = pair.j;
+    const std::size_t own = number(grains.species[i]);
+    const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, k);
+    const double rise = list.branch[k].y(), y_contact = y_i - share_i * rise;
+    const Tensor<D> stress = f * list.branch[k].transpose();
+    const bool equal = j && number(grains.species[*j]) == own;
+    const auto add_unmixed = [&](double to, const Tensor<D>& part) {
+      share_kernel(layers_, kernel_, y_i, to, count_, [&](std::size_t n, double share) {
+        sums_[n].unmixed[own].stress += share * part;
+      });
+    };
+
+    at_height(y_i, [&](std::size_t n, double share) {
+      sums_[n].at_centre[own] += share * f;
+      if (!j || equal) sums_[n].unmixed[own].contact += share * f;
+    });
+    if (!j) {
+      add_unmixed(y_contact, share_i * stress);
+      at_height(y_contact, [&](std::size_t n, double share) {
+        sums_[n].unmixed[own].contact -= share * f;
+        sums_[n].unmixed[own].base += share * f;
+      });
+      continue;
+    }
+    const std::size_t other = number(grains.species[*j]);
+    const double y_j = frame.position[*j].y();
+    at_height(y_j, [&](std::size_t n, double share) {
+      sums_[n].at_centre[other] -= share * f;
+      if (equal) sums_[n].unmixed[own].contact -= share * f;
+    });
+    if (equal) {
+      add_unmixed(y_j, stress);
+    } else {
+      const bool i_large = own > other;
+      const double r_i = grains.radius[i], r_j = grains.radius[*j];
+      const MixedContact radii{i_large ? r_i : r_j, i_large ? r_j : r_i,
+                               i_large ? share_i : 1 - share_i};
+      if (i_large)
+        add_mixed({radii, f, stress, own, other, y_i, y_j, rise});
+      else
+        add_mixed({radii, -f, stress, other, own, y_j, y_i, -rise});
+    }
+  }
+}
+
+template <int D>
+void PartitionedBalance<D>::add_mixed(const Mixed& contact)
+{
+  const auto& [radii, on_large, whole, large, small, y_large, y_small, rise] = contact;
+  // Lambdas take variables, not bindings (C++20 as clang 14 has it).
+  const Vector<D> force = on_large;
+  const Tensor<D> stress = whole;
+  const auto at_centre = [&, this](double y, std::size_t species, const Vector<D>& on) {
+    share_kernel(layers_, kernel_, y, y, count_, [&](std::size_t n, double share) {
+      for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
+        auto& sums = sums_[n].mixed[rule * species_ + species];
+        (rules_[rule].adds_up() ? sums.contact : sums.interaction) += share * on;
+      }
+    });
+  };
+  at_centre(y_large, large, force);
+  at_centre(y_small, small, -force);
+  const auto stretch = [&, this](double y, double cut, std::size_t place, double part) {
+    share_kernel(layers_, kernel_, y, cut, count_, [&](std::size_t n, double share) {
+      sums_[n].mixed[place].stress += share * part * stress;
+    });
+  };
+  share_kernel(layers_, kernel_, y_large, y_small, count_,
+               [&](std::size_t n, double share) { sums_[n].whole += share * stress; });
+  for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
+    if (!rules_[rule].adds_up()) continue;
+    const double p = rules_[rule].definition().share(radii, rules_[rule].value);
+    const double cut = y_large - p * rise;
+    const std::size_t of_large = rule * species_ + large, of_small = rule * species_ + small;
+    stretch(y_large, cut, of_large, p);
+    stretch(y_small, cut, of_small, 1 - p);
+    share_kernel(layers_, kernel_, cut, cut, count_, [&](std::size_t n, double share) {
+      auto &to_large = sums_[n].mixed[of_large], &to_small = sums_[n].mixed[of_small];
+      to_large.contact -= share * force;
+      to_large.interaction += share * force;
+      to_small.contact += share * force;
+      to_small.interaction -= share * force;
+    });
+  }
+}
+
+template <int D>
+void PartitionedBalance<D>::merge(const PartitionedBalance& others)
+{
+  frames_ += others.frames_;
+  grow_to(others.layers());
+  accumulate(sums_, others.sums_);
+}
+
+template <int D>
+double PartitionedBalance<D>::per_frame_and_volume(std::size_t layer) const
+{
+  return 1 / (static_cast<double>(frames_) * layers_.volume(layer));
+}
+
+template <int D>
+PartitionedForces<D> PartitionedBalance<D>::mean(std::size_t layer, Species species,
+                                                 std::size_t rule) const
+{
+  const auto& sums = sums_[layer];
+  auto mean = sums.unmixed[number(species)];
+  mean += sums.mixed[rule * species_ + number(species)];
+  return mean * per_frame_and_volume(layer);
+}
+
+template <int D>
+Vector<D> PartitionedBalance<D>::contact_force(std::size_t layer, Species species) const
+{
+  return per_frame_and_volume(layer) * sums_[layer].at_centre[number(species)];
+}
+
+template <int D>
+Tensor<D> PartitionedBalance<D>::unmixed_stress(std::size_t layer, Species species) const
+{
+  return per_frame_and_volume(layer) * sums_[layer].unmixed[number(species)].stress;
+}
+
+template <int D>
+Tensor<D> PartitionedBalance<D>::mixed_stress(std::size_t layer) const
+{
+  return per_frame_and_volume(layer) * sums_[layer].whole;
+}
+
+template class PartitionedBalance<2>;
+template class PartitionedBalance<3>;
 
 }  // namespace grseg

@@ -38,8 +38,7 @@ const std::array<CheckTolerances::Option, 12>& CheckTolerances::options()
 const char* CheckTolerances::option_of(double CheckTolerances::*value)
 {
   const auto& all = options();
-  return std::find_if(all.begin(), all.end(), [&](const Option& o) { return o.value == value; })
-      ->name;
+  return std::ranges::find(all, value, &Option::value)->name;
 }
 
 void CheckTolerances::require_valid() const
@@ -158,9 +157,8 @@ std::string to_json(const CheckReport& report)
     all["lines"].push_back(object);
   }
   all["passed"] = report.failures().empty();
-  all["undecided"] =
-      std::count_if(report.lines.begin(), report.lines.end(),
-                    [](const CheckLine& line) { return line.verdict == Verdict::undecided; });
+  all["undecided"] = std::ranges::count_if(
+      report.lines, [](const CheckLine& line) { return line.verdict == Verdict::undecided; });
   all["history"] = Json::array();
   for (const auto& [key, value] : report.header) {
     if (key == "history" || key == "verified" || key == "incomplete")

@@ -50,7 +50,7 @@ void SpecificationCheck::depart(const std::string& path, const std::string& what
 {
   auto& all = layout_.departures;
   const auto same = [&](const Departure& d) { return d.path == path; };
-  if (const auto known = std::find_if(all.begin(), all.end(), same); known != all.end())
+  if (const auto known = std::ranges::find_if(all, same); known != all.end())
     ++known->count;
   else
     all.push_back({path, what});

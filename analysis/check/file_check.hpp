@@ -6,7 +6,6 @@
 #include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 

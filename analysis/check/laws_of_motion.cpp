@@ -5,10 +5,13 @@
 #include "analysis/frames/layers.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
+#include "formats/core/errors.hpp"
+#include "formats/trajectory/reader.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace grseg {
 namespace {
@@ -41,9 +44,9 @@ void ForceBalance<D>::add(const Grains& grains, const Frame<D>& frame)
   const double scale = largest_force(grains, frame, gravity_);
   if (!frame.force.empty()) add_forces(grains, frame, scale);
 
-  Turning now{
-      frame.step, frame.time, scale * *std::max_element(grains.radius.begin(), grains.radius.end()),
-      std::vector<Spin<D>>(grains.size(), no_spin<D>()), torques_of(grains, frame.contacts)};
+  Turning now{frame.step, frame.time, scale * *std::ranges::max_element(grains.radius),
+              std::vector<Spin<D>>(grains.size(), no_spin<D>()),
+              torques_of(grains, frame.contacts)};
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (is_mobile(grains, g))
       now.inertia_times_spin[g] = grains.mass[g] * grains.radius[g] * grains.radius[g] *
@@ -71,7 +74,7 @@ void ForceBalance<D>::add_forces(const Grains& grains, const Frame<D>& frame, do
   }
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, frame, g))
-      forces_.add(scale > 0 ? defect[g].norm() / scale : defect[g].norm(), frame.time, g);
+      forces.add(scale > 0 ? defect[g].norm() / scale : defect[g].norm(), frame.time, g);
 }
 
 template <int D>
@@ -82,7 +85,7 @@ void ForceBalance<D>::add_torques(const Turning& before, const Turning& after)
     const Spin<D> change = (after.inertia_times_spin[g] - before.inertia_times_spin[g]) / step_;
     const double defect = size_of(Spin<D>(after.torque[g] - change));
     if (std::isnan(defect)) continue;  // a grain that is absent before or after
-    torques_.add(after.scale > 0 ? defect / after.scale : defect, after.time, g);
+    torques.add(after.scale > 0 ? defect / after.scale : defect, after.time, g);
   }
 }
 
@@ -213,14 +216,133 @@ void StressClosure<D>::add(const Grains& grains, const Frame<D>& frame)
   const auto ends = sums_of_ends(grains, frame, box_, species_);
 
   const double scale = largest_component<D>(by_contact.total);
-  double defect = std::max(largest_component<D>(sum_of<D>(ends) - by_contact.total),
-                           largest_component<D>(sum_of<D>(by_size.of_species) - by_size.total));
+  double difference = std::max(largest_component<D>(sum_of<D>(ends) - by_contact.total),
+                               largest_component<D>(sum_of<D>(by_size.of_species) - by_size.total));
   for (std::size_t s = 0; s < species_; ++s)
-    defect = std::max(defect, largest_component<D>(ends[s] - by_contact.of_species[s]));
-  defect_.add(scale > 0 ? defect / scale : defect, frame.time, 0);
+    difference = std::max(difference, largest_component<D>(ends[s] - by_contact.of_species[s]));
+  defect.add(scale > 0 ? difference / scale : difference, frame.time, 0);
 }
 
 template class StressClosure<2>;
 template class StressClosure<3>;
+
+namespace {
+
+double size_of_gravity(const TrajectoryReader& run)
+{
+  return with_dimension(run.dimension(), [&](auto d) { return run.gravity<d>().norm(); });
+}
+
+}  // namespace
+
+ContactRules read_contact_rules(const TrajectoryReader& run)
+{
+  const auto& parameters = run.parameters();
+  ContactRules rules;
+  rules.friction = parameters.find_number("friction");
+  rules.restitution = parameters.find_number("restitution");
+  rules.step = run.step();
+  rules.accuracy = parameters.text("accuracy");
+  const auto& radius = run.grains().radius;
+  rules.margin = 1e-9 * 2 * *std::ranges::min_element(radius);
+  const auto law = parameters.text("contact_law");
+  if (law.empty() || law == "touch") {
+    rules.look_ahead = 0;
+  } else if (law == "centred") {
+    rules.look_ahead = 0.5;
+  } else if (law == "predictive") {
+    rules.look_ahead = 1;
+  } else if (law == "speculative") {
+    rules.look_ahead = rules.horizon = parameters.number("horizon", run.path());
+    // For files without /parameters/contact_margin.
+    const double by_gravity =
+        rules.horizon * rules.step * std::sqrt(size_of_gravity(run) * run.small_diameter());
+    rules.margin =
+        std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
+  } else {
+    throw FormatError(fmt::format(
+        "{}: /parameters/contact_law is '{}', which this grseg-check does not know; use that of the "
+        "version that made the run",
+        run.path(), law));
+  }
+  return rules;
+}
+
+namespace {
+
+/// Relative velocities of i against j, m/s, after the step and before it.
+template <int D>
+struct Approach {
+  Vector<D> after, before;
+};
+
+template <int D>
+Approach<D> approach_of(const Grains& grains, const Frame<D>& frame, std::size_t contact,
+                        double step)
+{
+  Approach<D> relative{Vector<D>::Zero(), Vector<D>::Zero()};
+  const auto add = [&](std::size_t g, double sign) {
+    const Vector<D> change = step * frame.force[g] / grains.mass[g];
+    relative.after += sign * frame.velocity[g];
+    relative.before += sign * (frame.velocity[g] - change);
+  };
+  add(static_cast<std::size_t>(frame.contacts.i[contact]), 1);
+  const auto j = frame.contacts.j[contact];
+  if (j >= 0) add(static_cast<std::size_t>(j), -1);
+  return relative;
+}
+
+}  // namespace
+
+template <int D>
+void ContactViolations::add(const Grains& grains, const Frame<D>& frame)
+{
+  const auto& contacts = frame.contacts;
+  double scale = 0;
+  for (const auto& force : contacts.force) scale = std::max(scale, force.norm());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts.gap[c] < 0) overlap.add(-contacts.gap[c], frame.time, c);
+    if (scale > 0 && bears_force(contacts, c)) add_forces(frame, c, scale);
+    if (!frame.force.empty()) add_motion(grains, frame, c);
+  }
+}
+
+template <int D>
+void ContactViolations::add_forces(const Frame<D>& frame, std::size_t contact, double scale)
+{
+  const auto [n, f_n, f_t] = force_parts(frame.contacts, contact);
+  tension.add(std::max(0.0, -f_n) / scale, frame.time, contact);
+  if (rules_.friction)
+    coulomb.add(std::max(0.0, std::abs(f_t) - *rules_.friction * std::max(0.0, f_n)) / scale,
+                frame.time, contact);
+}
+
+template <int D>
+void ContactViolations::add_motion(const Grains& grains, const Frame<D>& frame, std::size_t contact)
+{
+  const auto& contacts = frame.contacts;
+  const double gap = contacts.gap[contact], reach = contacts.branch[contact].norm() - gap;
+  const Vector<D>& branch = contacts.branch[contact];
+  const Vector<D> n = branch.normalized();
+  const bool bears = bears_force(contacts, contact);
+  const auto relative = approach_of(grains, frame, contact, rules_.step);
+  if (bears) {
+    const Vector<D> flight = rules_.look_ahead * rules_.step * relative.before;
+    // The distance from a straight wall is along its normal.
+    const double distance =
+        contacts.j[contact] < 0 ? branch.norm() + flight.dot(n) : (branch + flight).norm();
+    open_gap.add(std::max(0.0, distance - reach - rules_.margin), frame.time, contact);
+  }
+  if (!rules_.restitution) return;
+  // Files of other programs may list pairs that are merely close.
+  if (gap > 0 && !bears && rules_.horizon == 0) return;
+  double least = -*rules_.restitution * relative.before.dot(n);
+  if (gap > 0)
+    least = std::min(least, rules_.horizon > 0 ? -gap / (rules_.horizon * rules_.step) : 0);
+  approach.add(std::max(0.0, least - relative.after.dot(n)) * rules_.step, frame.time, contact);
+}
+
+template void ContactViolations::add(const Grains&, const Frame<2>&);
+template void ContactViolations::add(const Grains&, const Frame<3>&);
 
 }  // namespace grseg

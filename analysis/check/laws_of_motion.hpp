@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -48,10 +49,10 @@ class ForceBalance {
   void add(const Grains& grains, const Frame<D>& frame);
 
   /// |defect| over the frame's largest force, weights included; by grain.
-  const WorstCase& forces() const { return forces_; }
+  WorstCase forces;
   /// |defect| over that force times the largest radius; empty where no frames are consecutive,
   /// or their steps were taken in parts.
-  const WorstCase& torques() const { return torques_; }
+  WorstCase torques;
 
  private:
   struct Turning {
@@ -65,7 +66,6 @@ class ForceBalance {
 
   Gravity<D> gravity_;
   double step_;
-  WorstCase forces_, torques_;
   Turning last_;  // of the last frame added; inertia_times_spin is empty before the first
 };
 
@@ -136,12 +136,68 @@ class StressClosure {
   void add(const Grains& grains, const Frame<D>& frame);
 
   /// Largest component of the differences over the largest of sigma, by frame.
-  const WorstCase& defect() const { return defect_; }
+  WorstCase defect;
 
  private:
   Box box_;
   std::size_t species_;
-  WorstCase defect_;
+};
+
+class TrajectoryReader;
+
+/// The contact law of a run, as its /parameters say; the laws are those of
+/// docs/studies/numerics.md.
+struct ContactRules {
+  std::optional<double> friction;     // Coulomb's mu
+  std::optional<double> restitution;  // Newton's e
+  double step = 0;                    // h, s
+  /// Steps of free flight from mid-step after which a pair must touch to exert a force; 0: at
+  /// mid-step.
+  double look_ahead = 0;
+  double margin = 0;     // m, within which a pair counts as touching then
+  std::string accuracy;  // preset of the solver, "" where the file names none
+  double horizon = 0;    // steps in which a pair that is still apart may close its gap; 0: may not
+};
+
+/// A run without the name of a law is one of pairs that touch at mid-step. FormatError where
+/// the law is not known. What a law means is decided in sim/contact/contact_law.hpp, which analysis
+/// must not include: a new law is named here, too.
+ContactRules read_contact_rules(const TrajectoryReader& run);
+
+/// How far the contacts of a run are from the laws of Coulomb, Signorini and Newton. With n from j
+/// to i, f_n and f_t the parts of the force on i, and u the velocity of i less that of j along n
+/// (u' before the step, from `force`):
+///   Coulomb     |f_t| <= mu f_n                         (to round-off: each sweep ends with it)
+///   tension     f_n >= 0                                (to round-off)
+///   open gap    a force acts only where the pair, after `look_ahead` steps of free flight at the
+///               velocities before the step, would be within `margin` of touching  (to round-off)
+///   approach    u >= -e u' where the pair touches; where it does not, u >= -gap/(horizon h), or
+///               -e u' where that is less (to the solver's tolerance; the deficit turns into
+///               overlap, u h per step)
+///   overlap     of pairs with gap < 0
+class ContactViolations {
+ public:
+  explicit ContactViolations(const ContactRules& rules) : rules_(rules) {}
+
+  /// s, of the frames that follow: of the rules, unless steps were taken in parts.
+  void use_step(double step) { rules_.step = step; }
+  template <int D>
+  void add(const Grains& grains, const Frame<D>& frame);
+
+  // By contact; forces over the largest contact force of the frame.
+  WorstCase coulomb;   // (|f_t| - mu f_n)/f_max
+  WorstCase tension;   // -f_n/f_max
+  WorstCase open_gap;  // m, gap beyond the margin
+  WorstCase approach;  // m, deficit of velocity times h
+  WorstCase overlap;   // m
+
+ private:
+  template <int D>
+  void add_forces(const Frame<D>& frame, std::size_t contact, double scale);
+  template <int D>
+  void add_motion(const Grains& grains, const Frame<D>& frame, std::size_t contact);
+
+  ContactRules rules_;
 };
 
 }  // namespace grseg

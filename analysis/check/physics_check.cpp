@@ -10,9 +10,7 @@
 #include <gsl/gsl_fit.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numeric>
 
@@ -88,15 +86,12 @@ std::vector<double> observable_of(const TrajectoryReader& run, const std::string
 template <int D>
 std::vector<Vector<D>> base_force_of(const TrajectoryReader& run)
 {
-  std::array<std::vector<double>, D> components;
-  for (std::size_t axis = 0; axis < D; ++axis)
-    components[axis] = observable_of(run, fmt::format("base_force_{}", "xyz"[axis]));
-  const auto shorter = [](const auto& a, const auto& b) { return a.size() < b.size(); };
-  std::vector<Vector<D>> force(
-      std::min_element(components.begin(), components.end(), shorter)->size());
-  for (std::size_t k = 0; k < force.size(); ++k)
-    for (std::size_t axis = 0; axis < D; ++axis)
-      force[k][static_cast<Eigen::Index>(axis)] = components[axis][k];
+  std::vector<Vector<D>> force(run.size());
+  for (int axis = 0; axis < D; ++axis) {
+    const auto component = observable_of(run, fmt::format("base_force_{}", "xyz"[axis]));
+    force.resize(std::min(force.size(), component.size()));
+    for (std::size_t k = 0; k < force.size(); ++k) force[k][axis] = component[k];
+  }
   return force;
 }
 
@@ -135,26 +130,11 @@ bool PhysicsCheck<D>::in_window(std::size_t index) const
   return window_ < windows_.size() && index >= windows_[window_].frames.front();
 }
 
-/// Whether gravity presses the bed on the base, in a direction that does not change.
-template <int D>
-bool PhysicsCheck<D>::steady_slope() const
-{
-  return gravity_.start.y() < 0 && !gravity_.turns();
-}
-
 /// Whether no walls carry a part of the weight.
 template <int D>
 bool PhysicsCheck<D>::is_periodic() const
 {
   return run_.box().periodic_x && (D == 2 || run_.box().periodic_z);
-}
-
-/// Whether the energies are so small that their defect is round-off of the forces.
-template <int D>
-bool PhysicsCheck<D>::at_rest(const TotalMotion<D>& total) const
-{
-  constexpr double least = 1e-12;
-  return total.energy < least * total.mass * gravity_.norm() * small_diameter_;
 }
 
 template <int D>
@@ -172,8 +152,9 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
   partials_.add(grains, frame);
   contacts_.use_step(step_of_force(frame, run_.step()));
   contacts_.add(grains, frame);
-  if (!energy_defect_.empty())
-    energy_.add(at_rest(total) ? 0 : energy_defect_[index], frame.time, 0);
+  // Where energies are that small, their defect is round-off of the forces.
+  const bool at_rest = total.energy < 1e-12 * total.mass * gravity_.norm() * small_diameter_;
+  if (!energy_defect_.empty()) energy_.add(at_rest ? 0 : energy_defect_[index], frame.time, 0);
   if (!in_window(index)) return;
   if (weights_) weights_->add_to_mean(grains, frame);
   if (windows_[window_].frames.back() == index) end_window();
@@ -182,10 +163,10 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
 template <int D>
 void PhysicsCheck<D>::begin_window(const Frame<D>& frame)
 {
-  const auto& overlap = contacts_.overlap();
+  const auto& overlap = contacts_.overlap;
   window_starts_.push_back({frame.time, motion_.stray(0), D == 3 ? motion_.stray(D - 1) : 0,
                             overlap.sum, overlap.count, energy_.sum, energy_.count});
-  if (steady_slope() && is_periodic())
+  if (gravity_.start.y() < 0 && !gravity_.turns() && is_periodic())
     weights_.emplace(layers_, gravity_.start, small_diameter_ / 2, run_.species().size());
 }
 
@@ -226,19 +207,19 @@ void PhysicsCheck<D>::add_balances(std::vector<CheckLine>& lines) const
     lines.push_back(why_skipped != nullptr ? skipped(check.name, why_skipped)
                                            : judge_.largest(check, worst, what));
   };
-  const auto &torques = forces_.torques(), &momentum = motion_.momentum();
-  add(named("force_balance"), forces_.forces(), "grain",
+  const auto& momentum = motion_.momentum();
+  add(named("force_balance"), forces_.forces, "grain",
       has_force_ ? nullptr : "the file holds no `force` of grains");
-  add(named("torque_balance"), torques, "grain",
-      !rotation_           ? "grains do not rotate"
-      : torques.count == 0 ? "no two frames are consecutive steps"
-                           : nullptr);
+  add(named("torque_balance"), forces_.torques, "grain",
+      !rotation_                   ? "grains do not rotate"
+      : forces_.torques.count == 0 ? "no two frames are consecutive steps"
+                                   : nullptr);
   add(named("total_momentum"), momentum, "",
       momentum.count > 0    ? nullptr
       : base_force_.empty() ? D == 2 ? "the file holds no /observables/base_force_x, _y"
                                      : "the file holds no /observables/base_force_x, _y, _z"
                             : "there is one frame only");
-  add(named("sum_of_partials"), partials_.defect(), "", nullptr);
+  add(named("sum_of_partials"), partials_.defect, "", nullptr);
   add(named("energy_defect"), energy_, "", energy_.count > 0 ? nullptr : no_energy_defect);
 }
 
@@ -247,10 +228,7 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
 {
   const auto add = [&](const Check& largest, const Check& mean, const WorstCase& worst, double unit,
                        const char* why_skipped = nullptr) {
-    if (why_skipped != nullptr) {
-      for (const auto& check : {largest, mean}) lines.push_back(skipped(check.name, why_skipped));
-      return;
-    }
+    if (why_skipped != nullptr) return skip({largest, mean}, why_skipped, lines);
     lines.push_back(judge_.largest(largest, worst, "contact", unit));
     lines.push_back(judge_.mean(mean, worst, unit));
   };
@@ -259,14 +237,14 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
                  : "the file holds no `force` of grains, so no velocities before the step";
   const char* no_restitution =
       rules_.restitution ? nullptr : "the file holds no /parameters/restitution";
-  add(named("coulomb_largest"), named("coulomb_mean"), contacts_.coulomb(), 1,
+  add(named("coulomb_largest"), named("coulomb_mean"), contacts_.coulomb, 1,
       rules_.friction ? nullptr : "the file holds no /parameters/friction");
-  add(named("tension_largest"), named("tension_mean"), contacts_.tension(), 1);
-  add(named("open_gap_largest"), named("open_gap_mean"), contacts_.open_gap(), small_diameter_,
+  add(named("tension_largest"), named("tension_mean"), contacts_.tension, 1);
+  add(named("open_gap_largest"), named("open_gap_mean"), contacts_.open_gap, small_diameter_,
       no_velocities);
-  add(named("approach_largest"), named("approach_mean"), contacts_.approach(), small_diameter_,
+  add(named("approach_largest"), named("approach_mean"), contacts_.approach, small_diameter_,
       has_force_ ? no_restitution : no_velocities);
-  add(named("overlap_largest"), named("overlap_mean"), contacts_.overlap(), small_diameter_);
+  add(named("overlap_largest"), named("overlap_mean"), contacts_.overlap, small_diameter_);
   if (rules_.accuracy != "draft") return;
   for (auto& line : lines)
     if (line.verdict == Verdict::failed &&
@@ -295,11 +273,8 @@ void PhysicsCheck<D>::add_layers(std::vector<CheckLine>& lines) const
     layers = balance_layers(weight_windows_, layers_, tolerances_.least_load);
     if (layers.empty()) why_skipped = "there is one layer only; choose a thinner --layer";
   }
-  if (!why_skipped.empty()) {
-    for (const auto& check : {named("weight"), named("slope"), named("slope_across")})
-      if (applies(check)) lines.push_back(skipped(check.name, why_skipped));
-    return;
-  }
+  if (!why_skipped.empty())
+    return skip({named("weight"), named("slope"), named("slope_across")}, why_skipped, lines);
   const auto add = [&](const Check& check, const LayerBalance& layer, double deviation,
                        double error, const std::string& remark) {
     auto line =
@@ -309,29 +284,25 @@ void PhysicsCheck<D>::add_layers(std::vector<CheckLine>& lines) const
     line.remark = remark;
     lines.push_back(line);
   };
-  const auto add_ratio = [&](const Check& check, const LayerBalance& layer,
-                             const LayerBalance::StressRatio& found) {
-    add(check, layer, found.ratio - found.slope, found.error,
-        fmt::format("stress ratio {:.5f}, slope less acceleration {:.5f}", found.ratio,
-                    found.slope));
-  };
   for (const auto& layer : layers)
     add(named("weight"), layer, layer.carried - 1, layer.carried_error,
         fmt::format("carries {:.5f} of the weight above", layer.carried));
-  for (const auto& layer : layers) add_ratio(named("slope"), layer, layer.along);
-  if (applies(named("slope_across")))
-    for (const auto& layer : layers) add_ratio(named("slope_across"), layer, layer.across);
+  for (const auto& [check, ratio] : {std::pair{named("slope"), &LayerBalance::along},
+                                     {named("slope_across"), &LayerBalance::across}})
+    for (const auto& layer : layers)
+      if (const auto& found = layer.*ratio; applies(check))
+        add(check, layer, found.ratio - found.slope, found.error,
+            fmt::format("stress ratio {:.5f}, slope less acceleration {:.5f}", found.ratio,
+                        found.slope));
 }
 
 template <int D>
 void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
 {
-  if (windows_.size() < least_windows) {
-    for (const auto& check :
-         {named("overlap_drift"), named("energy_defect_drift"), named("x_drift"), named("z_drift")})
-      if (applies(check)) lines.push_back(skipped(check.name, few_windows));
-    return;
-  }
+  if (windows_.size() < least_windows)
+    return skip(
+        {named("overlap_drift"), named("energy_defect_drift"), named("x_drift"), named("z_drift")},
+        few_windows, lines);
   const WindowMeans means(window_starts_);
   const auto add_change = [&](const Check& check, std::vector<double> values, double unit) {
     for (double& value : values) value /= unit;
@@ -345,21 +316,23 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
     add_change(named("energy_defect_drift"), means.energy_defect, 1);
   else
     lines.push_back(skipped(named("energy_defect_drift").name, no_energy_defect));
-  add_strays(named("x_drift"), means.stray_rate, lines);
-  if (applies(named("z_drift"))) add_strays(named("z_drift"), means.stray_rate_across, lines);
+  if (!(gravity_.norm() > 0))
+    return skip({named("x_drift"), named("z_drift")}, "without gravity it has no scale", lines);
+  const double speed = std::sqrt(gravity_.norm() * small_diameter_);
+  for (const auto& [check, rates] : {std::pair{named("x_drift"), &means.stray_rate},
+                                     {named("z_drift"), &means.stray_rate_across}}) {
+    const auto [rate, error] = mean_of(*rates);
+    if (applies(check))
+      lines.push_back(judge_.statistical(check, rate / speed, error / speed, rates->size(), 1));
+  }
 }
 
 template <int D>
-void PhysicsCheck<D>::add_strays(const Check& check, const std::vector<double>& rates,
-                                 std::vector<CheckLine>& lines) const
+void PhysicsCheck<D>::skip(std::initializer_list<Check> checks, const std::string& why,
+                           std::vector<CheckLine>& lines)
 {
-  if (!(gravity_.norm() > 0)) {
-    lines.push_back(skipped(check.name, "without gravity it has no scale"));
-    return;
-  }
-  const double speed = std::sqrt(gravity_.norm() * small_diameter_);
-  const auto [rate, error] = mean_of(rates);
-  lines.push_back(judge_.statistical(check, rate / speed, error / speed, rates.size(), 1));
+  for (const auto& check : checks)
+    if (applies(check)) lines.push_back(skipped(check.name, why));
 }
 
 template class PhysicsCheck<2>;

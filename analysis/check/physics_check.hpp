@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analysis/check/checks.hpp"
-#include "analysis/check/contact_violations.hpp"
 #include "analysis/check/laws_of_motion.hpp"
 #include "analysis/check/weight_balance.hpp"
 #include "analysis/frames/windows.hpp"
@@ -11,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,10 +66,8 @@ class PhysicsCheck {
 
  private:
   bool in_window(std::size_t index) const;
-  bool steady_slope() const;
   bool is_periodic() const;
   static bool applies(const Check& check) { return D == 3 || !check.of_spheres_only; }
-  bool at_rest(const TotalMotion<D>& total) const;
   void begin_window(const Frame<D>& frame);
   void end_window();
   std::string why_no_layers() const;
@@ -77,8 +75,8 @@ class PhysicsCheck {
   void add_contacts(std::vector<CheckLine>& lines) const;
   void add_layers(std::vector<CheckLine>& lines) const;
   void add_drifts(std::vector<CheckLine>& lines) const;
-  void add_strays(const Check& check, const std::vector<double>& rates,
-                  std::vector<CheckLine>& lines) const;
+  static void skip(std::initializer_list<Check> checks, const std::string& why,
+                   std::vector<CheckLine>& lines);
 
   const TrajectoryReader& run_;
   CheckTolerances tolerances_;

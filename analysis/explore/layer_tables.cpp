@@ -6,7 +6,7 @@
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/micro/derived_quantities.hpp"
-#include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/segregation/rates.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"

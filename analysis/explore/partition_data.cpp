@@ -3,9 +3,9 @@
 
 #include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
-#include "analysis/fit/partition_scan.hpp"
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace grseg {
 namespace {
@@ -28,24 +27,18 @@ std::string doubt_of_flows(const std::vector<FitTable>& tables)
   return "";
 }
 
-std::string doubt_of_stillness(const FitData& data)
-{
-  if (data.still == 0) return "";
-  return fmt::format(
-      "{} of {} windows hold the same as the one before them, since nothing moves, and are no "
-      "observations of their own",
-      data.still, number_of_windows(data.runs) + data.still);
-}
-
 }  // namespace
 
 std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
                                           const std::vector<FitTable>& read, const FitData& data)
 {
-  std::vector<std::string> doubts;
-  for (auto&& doubt :
-       {find_runs(tables).doubt(tables), doubt_of_flows(read), doubt_of_stillness(data)})
-    if (!doubt.empty()) doubts.push_back(doubt);
+  std::vector<std::string> doubts{find_runs(tables).doubt(tables), doubt_of_flows(read)};
+  std::erase(doubts, "");
+  if (data.still > 0)
+    doubts.push_back(fmt::format(
+        "{} of {} windows hold the same as the one before them, since nothing moves, and are no "
+        "observations of their own",
+        data.still, number_of_windows(data.runs) + data.still));
   return doubts;
 }
 
@@ -53,24 +46,14 @@ namespace {
 
 constexpr double rarely =
     0.025;  // of each of two series, so that one of them shows as often as 5 %
-constexpr std::size_t fewest_windows = 10;
+constexpr Eigen::Index fewest_windows = 10;
 constexpr double fewest_independent = 2;
-
-/// The windows of a run from `begin` on.
-Eigen::VectorXd run_from(const Eigen::VectorXd& series, std::size_t first, std::size_t length,
-                         double left_out)
-{
-  const auto begin = static_cast<std::size_t>(std::ceil(left_out * static_cast<double>(length)));
-  return series.segment(static_cast<Eigen::Index>(first + begin),
-                        static_cast<Eigen::Index>(length - begin));
-}
 
 /// Of one run: the first tenth less the last half, with its error.
 std::optional<Measured> compare(const Eigen::VectorXd& run)
 {
-  const auto n = static_cast<std::size_t>(run.size());
-  if (n < fewest_windows) return {};
-  const auto early = static_cast<Eigen::Index>(n / 10), late = static_cast<Eigen::Index>(n / 2);
+  if (run.size() < fewest_windows) return {};
+  const auto early = run.size() / 10, late = run.size() / 2;
   const Eigen::VectorXd last = run.tail(late);
   const double time = autocorrelation_time(last, {static_cast<std::size_t>(late)});
   const double independent = static_cast<double>(late) / time;
@@ -88,9 +71,11 @@ std::optional<StartOfFlow> compare(const Eigen::VectorXd& series, const RunLengt
 {
   std::vector<StandardError> errors;
   double excess = 0;
-  std::size_t first = 0;
-  for (const auto length : runs) {
-    const auto run = compare(run_from(series, first, length, left_out));
+  Eigen::Index first = 0;
+  for (const auto windows : runs) {
+    const auto length = index(windows);
+    const auto begin = static_cast<Eigen::Index>(std::ceil(left_out * static_cast<double>(length)));
+    const auto run = compare(series.segment(first + begin, length - begin));
     first += length;
     if (!run) return {};
     excess += run->value;
@@ -114,26 +99,17 @@ double time_after(const FitData& data, double left_out)
   return begin + left_out * (end - begin);
 }
 
-/// B of each window less what its composition explains.
-Eigen::VectorXd strength_by_window(const FitData& data, const PartitionRule& rule,
-                                   const FitSettings& settings)
-{
-  const auto windows = window_sums(fit_points(data, rule, settings), data.runs);
-  return windows.excess_noise() / windows.weight().mean();
-}
-
 /// Of contacts |sigma_xy|/sigma_yy, which in a steady chute is the tangent of its slope and in one that
 /// gathers speed less; of the kinetic stress its sigma_yy, which grows with the speed.
 Eigen::VectorXd motion_by_window(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {
-  const auto count = static_cast<Eigen::Index>(number_of_windows(data.runs));
-  Eigen::VectorXd shear = Eigen::VectorXd::Zero(count), normal = shear;
+  Eigen::VectorXd shear = Eigen::VectorXd::Zero(index(number_of_windows(data.runs)));
+  Eigen::VectorXd normal = shear;
   for (const auto& sample : data.samples) {
-    const auto window = static_cast<Eigen::Index>(sample.window);
     const auto stress = partial_stress(data.rows[sample.row], rule, settings.base).total;
-    shear[window] += sample.frames * stress(0, 1);
-    normal[window] += sample.frames * stress(1, 1);
+    shear[index(sample.window)] += sample.frames * stress(0, 1);
+    normal[index(sample.window)] += sample.frames * stress(1, 1);
   }
   return data.quantity == Quantity::kinetic ? normal : (shear.array() / normal.array()).abs();
 }
@@ -144,13 +120,10 @@ std::optional<StartOfFlow> start_of_flow(const Eigen::VectorXd& series, const Ru
 {
   auto found = compare(series, runs, 0);
   if (!found || found->chance >= rarely) return found;
-  constexpr int twentieths = 10;
   found->leave_out = 1;
-  for (int k = 1; k <= twentieths; ++k) {
-    const auto rest = compare(series, runs, k / 20.0);
-    if (!rest || rest->chance < rarely) continue;
-    found->leave_out = k / 20.0;
-    break;
+  for (int twentieths = 10; twentieths >= 1; --twentieths) {
+    const auto rest = compare(series, runs, twentieths / 20.0);
+    if (rest && !(rest->chance < rarely)) found->leave_out = twentieths / 20.0;
   }
   return found;
 }
@@ -171,7 +144,9 @@ std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
   };
   add(kinetic ? "the kinetic stress (yy)" : "|sigma_xy|/sigma_yy",
       motion_by_window(data, rule, settings));
-  add("B by " + rule.name(), strength_by_window(data, rule, settings));
+  // What the composition of a window does not explain.
+  const auto windows = window_sums(fit_points(data, rule, settings), data.runs);
+  add("B by " + rule.name(), windows.excess_noise() / windows.weight().mean());
   if (differs.empty()) return {};
   const auto remedy = leave_out < 1 ? fmt::format("--begin {:.4g} leaves the start out",
                                                   time_after(data, leave_out))

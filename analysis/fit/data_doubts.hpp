@@ -4,7 +4,6 @@
 #include "analysis/fit/fit_data.hpp"
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/grouping.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
-#include "formats/cli/provenance.hpp"
+#include "analysis/stress/partial_stress.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -31,29 +30,23 @@ SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
   const auto column = [&table](const std::string& name) {
     return find_column(table, name, "--quantity kinetic needs a table of grseg-kinetic");
   };
-  struct Columns {
-    std::size_t content;
-    std::vector<std::size_t> diagonal;
-  };
-  std::vector<Columns> columns;
-  for (const auto& word : column_words(species)) {
-    const auto content = fmt::format("{}_{}", dimension_of(table) == 3 ? "volume" : "area", word);
-    auto& own = columns.emplace_back(Columns{table.has_column(content)
-                                                 ? table.column(content)
-                                                 : column(fmt::format("mass_{}[kg]", word)),
-                                             {}});
-    for (const auto& [suffix, row, col] : tensor_components(dimension_of(table)))
-      if (row == col) own.diagonal.push_back(column(fmt::format("K_{}{}[J]", word, suffix)));
+  const auto words = column_words(species);
+  const int dimension = dimension_of(table);
+  std::vector<std::size_t> content, diagonal;  // by species, and by axis
+  for (const auto& word : words) {
+    const auto name = fmt::format("{}_{}", dimension == 3 ? "volume" : "area", word);
+    content.push_back(table.has_column(name) ? table.column(name)
+                                             : column(fmt::format("mass_{}[kg]", word)));
+    for (const auto& [suffix, row, col] : tensor_components(dimension))
+      if (row == col) diagonal.push_back(column(fmt::format("K_{}{}[J]", word, suffix)));
   }
-  return [&table, columns](std::size_t row) {
-    ContactSums<3> sums(columns.size());
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      sums.content[k] = non_negative_cell(table, row, columns[k].content);
-      for (std::size_t axis = 0; axis < columns[k].diagonal.size(); ++axis) {
-        const auto place = static_cast<Eigen::Index>(axis);
-        sums.of(OwnSum::inside, k)(place, place) =
-            finite_cell(table, row, columns[k].diagonal[axis]);
-      }
+  return [&table, dimension, content, diagonal](std::size_t row) {
+    ContactSums<3> sums(content.size());
+    auto next = diagonal.begin();
+    for (std::size_t k = 0; k < content.size(); ++k) {
+      sums.content[k] = non_negative_cell(table, row, content[k]);
+      for (int axis = 0; axis < dimension; ++axis)
+        sums.of(OwnSum::inside, k)(axis, axis) = finite_cell(table, row, *next++);
     }
     return sums;
   };
@@ -88,26 +81,22 @@ std::vector<LayerSolid> layers_of(const std::vector<FitRow>& rows)
   return layers;
 }
 
-/// Counts a row under the reason why it is left out, or as used; true if it becomes a point.
-bool passes(const FitRow& row, const SpeciesPair& pair, const FitFilters& filters,
-            const RowRange& range, double median_solid, FilterCount& count)
+/// Where a row counts: as used, or under the reason why it is left out.
+std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
+                                   const FitFilters& filters, const RowRange& range,
+                                   double median_solid)
 {
+  using Count = FilterCount;
   const double small = row.sums.content[pair.smaller], large = row.sums.content[pair.larger];
   const double ratio = small / large;
-  const auto goes_to = [](std::size_t& place) {
-    ++place;
-    return false;
-  };
-  ++count.rows;
-  if (!range.holds_window(row.key)) return goes_to(count.outside_times);
-  if (!(small + large > 0) || !(row.key.frames > 0)) return goes_to(count.without_grains);
-  if (!(small > 0)) return goes_to(count.without_small);
-  if (!(large > 0)) return goes_to(count.without_large);
-  if (!range.holds_layer(row.key)) return goes_to(count.outside_heights);
-  if (ratio < filters.ratio_low || ratio > filters.ratio_high) return goes_to(count.outside_ratio);
-  if (row.solid() < filters.min_solid * median_solid) return goes_to(count.below_solid);
-  ++count.used;
-  return true;
+  if (!range.holds_window(row.key)) return &Count::outside_times;
+  if (!(small + large > 0) || !(row.key.frames > 0)) return &Count::without_grains;
+  if (!(small > 0)) return &Count::without_small;
+  if (!(large > 0)) return &Count::without_large;
+  if (!range.holds_layer(row.key)) return &Count::outside_heights;
+  if (ratio < filters.ratio_low || ratio > filters.ratio_high) return &Count::outside_ratio;
+  if (row.solid() < filters.min_solid * median_solid) return &Count::below_solid;
+  return &Count::used;
 }
 
 /// Those of one row of a table and one pair of its species.
@@ -139,8 +128,12 @@ UsedRows used_rows(const FitTable& run, const FitFilters& filters,
                        parse_heights(filters.heights, units, layers_of(run.rows))};
   UsedRows used;
   for (const auto& row : run.rows)
-    for (const auto& pair : pairs)
-      if (passes(row, pair, filters, range, run.median_solid, count)) used.emplace_back(&row, pair);
+    for (const auto& pair : pairs) {
+      const auto place = place_of(row, pair, filters, range, run.median_solid);
+      ++count.rows;
+      ++(count.*place);
+      if (place == &FilterCount::used) used.emplace_back(&row, pair);
+    }
   return used;
 }
 
@@ -195,15 +188,11 @@ void add_samples(const FitTable& run, const UsedRows& used, const Observations& 
 
 void require_alike(const FitTable& a, const FitTable& b)
 {
-  const auto names = [](const SpeciesList& species) {
-    std::vector<std::string> all;
-    for (const auto& one : species) all.push_back(one.name);
-    return all;
-  };
-  if (names(a.species) != names(b.species) && a.species.size() + b.species.size() > 4)
+  const auto names_a = names_of(a.species), names_b = names_of(b.species);
+  if (names_a != names_b && names_a.size() + names_b.size() > 4)
     throw FormatError(fmt::format("{} and {} have different species ({} and {}); fit them apart",
-                                  a.table->name, b.table->name, fmt::join(names(a.species), ", "),
-                                  fmt::join(names(b.species), ", ")));
+                                  a.table->name, b.table->name, fmt::join(names_a, ", "),
+                                  fmt::join(names_b, ", ")));
   if (dimension_of(*a.table) != dimension_of(*b.table))
     throw FormatError(
         fmt::format("{} is of a run in {} dimensions and {} of one in {}; fit them "
@@ -242,16 +231,14 @@ std::vector<std::size_t> FitData::flows_of_windows() const
 std::string FilterCount::sentence() const
 {
   std::string text = fmt::format("{} rows", rows);
-  const auto add = [&](std::size_t n, const char* why) {
-    if (n > 0) text += fmt::format(", {} {}", n, why);
-  };
-  add(outside_times, "outside --begin and --end");
-  add(without_grains, "without grains");
-  add(without_small, "without small grains");
-  add(without_large, "without large grains");
-  add(outside_heights, "outside --heights");
-  add(outside_ratio, "outside --ratio-range");
-  add(below_solid, "below --min-solid");
+  for (const auto& [number, why] : {std::pair{outside_times, "outside --begin and --end"},
+                                    {without_grains, "without grains"},
+                                    {without_small, "without small grains"},
+                                    {without_large, "without large grains"},
+                                    {outside_heights, "outside --heights"},
+                                    {outside_ratio, "outside --ratio-range"},
+                                    {below_solid, "below --min-solid"}})
+    if (number > 0) text += fmt::format(", {} {}", number, why);
   return text;
 }
 
@@ -307,30 +294,12 @@ FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
   return select_fit_data(read_fit_tables(tables, quantity, rules), quantity, filters, {{0, 1}});
 }
 
-namespace {
-
-double component_of(const Tensor3& stress, const FitData& data, Component component)
+std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
+                                 const FitSettings& settings)
 {
-  return component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
-}
-
-bool is_finite(const FitPoint& point)
-{
-  return std::isfinite(point.small + point.large + point.total);
-}
-
-[[noreturn]] void refuse(const std::string& table, const PartitionRule& rule, Component component)
-{
-  throw FormatError(
-      fmt::format("{}: the stress ({}) by {} is not finite: a sum that it needs was not kept (see "
-                  "the line '# not kept: ...') or is too large; make the table anew",
-                  table, word_of(component, components), rule.name()));
-}
-
-/// One per sample, finite or not.
-std::vector<FitPoint> points_of(const FitData& data, const PartitionRule& rule,
-                                const FitSettings& settings)
-{
+  const auto of = [&](const Tensor3& stress) {
+    return settings.component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
+  };
   std::vector<PartialStress<3>> stresses;
   stresses.reserve(data.rows.size());
   for (const auto& sums : data.rows) stresses.push_back(partial_stress(sums, rule, settings.base));
@@ -338,32 +307,17 @@ std::vector<FitPoint> points_of(const FitData& data, const PartitionRule& rule,
   points.reserve(data.samples.size());
   for (const auto& sample : data.samples) {
     const auto& stress = stresses[sample.row];
-    const auto of = [&](const Tensor3& tensor) {
-      return component_of(tensor, data, settings.component);
-    };
-    const auto &smaller = stress.of_species[sample.pair.smaller],
-               &larger = stress.of_species[sample.pair.larger];
-    const bool only_two = stress.of_species.size() == 2;
-    points.push_back({.window = sample.window,
-                      .phi_large = sample.phi_large,
-                      .weight = sample.weight,
-                      .frames = sample.frames,
-                      .size_ratio = sample.size_ratio,
-                      .small = of(smaller),
-                      .large = of(larger),
-                      .total = only_two ? of(stress.total) : of(smaller) + of(larger)});
+    const double small = of(stress.of_species[sample.pair.smaller]),
+                 large = of(stress.of_species[sample.pair.larger]);
+    const double total = stress.of_species.size() == 2 ? of(stress.total) : small + large;
+    if (!std::isfinite(small + large + total))
+      throw FormatError(fmt::format(
+          "{}: the stress ({}) by {} is not finite: a sum that it needs was not kept "
+          "(see the line '# not kept: ...') or is too large; make the table anew",
+          data.tables[sample.table], word_of(settings.component, components), rule.name()));
+    points.push_back({sample.window, sample.phi_large, sample.weight, sample.frames,
+                      sample.size_ratio, small, large, total});
   }
-  return points;
-}
-
-}  // namespace
-
-std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
-                                 const FitSettings& settings)
-{
-  auto points = points_of(data, rule, settings);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (!is_finite(points[k])) refuse(data.tables[data.samples[k].table], rule, settings.component);
   return points;
 }
 

@@ -67,6 +67,8 @@ struct FitFilters {
 /// Two of the species of the tables, the smaller first.
 struct SpeciesPair {
   std::size_t smaller = 0, larger = 1;
+
+  bool operator==(const SpeciesPair&) const = default;
 };
 /// All of them: (0, 1), (0, 2), (1, 2), (0, 3) ...
 std::vector<SpeciesPair> all_pairs(std::size_t species);
@@ -98,16 +100,15 @@ struct FilterCount {
 struct FitData {
   Quantity quantity = Quantity::contact;
   int dimension = 2;
-  RunLengths runs;                  // observations of each run: windows with samples, in line
-  std::vector<std::size_t> flows;   // of each run (flows.hpp); empty: all are of one
-  std::size_t still = 0;            // windows that add no observation, since nothing moved
-  std::vector<std::string> tables;  // their names
-  SpeciesList species;              // of the first; those of the others have the same names
-  double window = 0;                // s, the first one's length
-  std::vector<ContactSums<3>>
-      rows;  // kinetic: species alone, nothing mixed, so every rule gives the
-             // same
-  std::vector<LayerSample> samples;
+  RunLengths runs = {};                 // observations of each run: windows with samples, in line
+  std::vector<std::size_t> flows = {};  // of each run (flows.hpp); empty: all are of one
+  std::size_t still = 0;                // windows that add no observation, since nothing moved
+  std::vector<std::string> tables;      // their names
+  SpeciesList species;                  // of the first; those of the others have the same names
+  double window = 0;                    // s, the first one's length
+  // Kinetic: species alone, nothing mixed, so every rule gives the same.
+  std::vector<ContactSums<3>> rows = {};
+  std::vector<LayerSample> samples = {};
   FilterCount count;
 
   std::size_t flow_of(std::size_t run) const { return flows.empty() ? 0 : flows[run]; }

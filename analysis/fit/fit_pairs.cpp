@@ -3,16 +3,18 @@
 
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/flows.hpp"
-#include "analysis/fit/rule_fit.hpp"
-#include "analysis/statistics/confidence.hpp"
+#include "analysis/frames/grouping.hpp"
+#include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <iterator>
 #include <set>
 #include <utility>
-#include <vector>
 
 namespace grseg {
 namespace {
@@ -59,14 +61,12 @@ Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                        const Resampling& resampling)
 {
-  const bool equal = settings.over == Population::equal_flows,
-             random = settings.over == Population::random_flows;
-  if (data.number_of_flows() == 1 || (!equal && !random))
+  const bool equal = settings.over == Population::equal_flows;
+  if (data.number_of_flows() == 1 || (!equal && settings.over != Population::random_flows))
     return pooled_exponent(data, rule, settings, resampling).estimate();
   auto of_one = settings;
   of_one.over = Population::automatic;
   std::vector<Measured> of_each;
-  of_each.reserve(data.number_of_flows());
   for (const auto flow : std::set(data.flows.begin(), data.flows.end()))
     of_each.push_back(pooled_exponent(of_flow(data, flow), rule, of_one, resampling));
   const auto mean = mean_of_equals(of_each);
@@ -80,8 +80,7 @@ template <class Of>
 MeanOfEquals mean_of(const std::vector<RuleFit>& flows, const Of& of)
 {
   std::vector<Measured> numbers;
-  numbers.reserve(flows.size());
-  for (const auto& fit : flows) numbers.push_back(of(fit));
+  std::ranges::transform(flows, std::back_inserter(numbers), of);
   return mean_of_equals(numbers);
 }
 
@@ -90,15 +89,6 @@ MeanOfEquals mean_of(const std::vector<RuleFit>& flows, double Estimators::*plac
   return mean_of(flows, [place](const RuleFit& fit) {
     return Measured{fit.value.*place, {fit.error.*place, fit.degrees}};
   });
-}
-
-std::string doubt_of_random(std::size_t flows)
-{
-  if (flows > 3) return {};
-  return fmt::format(
-      "{} flows tell little of how flows differ; four or more give a narrower "
-      "interval",
-      flows);
 }
 
 /// Makes the mean over flows the result. Whatever stands beside it is such a mean, too.
@@ -125,13 +115,17 @@ void take_mean(RuleFit& all, const std::vector<RuleFit>& flows)
 }
 
 /// What limits the intervals of such means.
-void doubt_mean(RuleFit& all, const std::vector<RuleFit>& flows)
+std::string doubt_of_mean(const RuleFit& all, const std::vector<RuleFit>& flows)
 {
-  const auto single =
-      std::count_if(flows.begin(), flows.end(), [](const RuleFit& fit) { return fit.runs == 1; });
-  all.doubt = all.over == Population::random_flows
-                  ? doubt_of_random(flows.size())
-                  : doubt_of_flows(all, static_cast<std::size_t>(single), flows.size());
+  if (all.over == Population::equal_flows)
+    return doubt_of_flows(
+        all, static_cast<std::size_t>(std::ranges::count(flows, 1U, &RuleFit::runs)), flows.size());
+  return flows.size() > 3
+             ? ""
+             : fmt::format(
+                   "{} flows tell little of how flows differ; four or more give a narrower "
+                   "interval",
+                   flows.size());
 }
 
 /// Adds what rests on the flows one by one, and makes it the result where it was asked for.
@@ -142,7 +136,7 @@ void combine(RuleFit& all, const std::vector<RuleFit>& flows)
   all.at(Population::random_flows) = b.by_scatter.around(b.value);
   if (all.over != Population::equal_flows && all.over != Population::random_flows) return;
   take_mean(all, flows);
-  doubt_mean(all, flows);
+  all.doubt = doubt_of_mean(all, flows);
 }
 
 }  // namespace
@@ -170,13 +164,10 @@ namespace {
 std::size_t find_species(const std::string& word, const SpeciesList& species,
                          const std::string& text)
 {
-  std::string names;
-  for (std::size_t k = 0; k < species.size(); ++k) {
-    if (word == species[k].name || word == std::to_string(k + 1)) return k;
-    names += fmt::format("{}{}", k == 0 ? "" : ", ", species[k].name);
-  }
+  if (const auto found = number_of_species(word, species)) return *found;
   throw UsageError(fmt::format("--pair {}: write two species of the table, as in {},{}; it has {}",
-                               text, species.front().name, species.back().name, names));
+                               text, species.front().name, species.back().name,
+                               fmt::join(names_of(species), ", ")));
 }
 
 }  // namespace
@@ -214,6 +205,73 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
       if (!fits[fit].flow) fits[fit].size_exponent = exponent;
   }
   return fits;
+}
+
+namespace {
+
+PartitionRule uniform(double share)
+{
+  return {PartitionRule::Kind::uniform, share};
+}
+
+}  // namespace
+
+std::vector<double> ScanRange::shares() const
+{
+  const auto count = static_cast<std::size_t>(std::floor((last - first) / step + 1e-6)) + 1;
+  std::vector<double> all(count);
+  // Multiplying, not adding up: steps stay exact; 0.4 + 40 x 0.005 is to print as 0.6.
+  for (std::size_t k = 0; k < count; ++k)
+    all[k] = std::round((first + static_cast<double>(k) * step) * 1e12) / 1e12;
+  return all;
+}
+
+ScanRange parse_scan(const std::string& text)
+{
+  ScanRange range;
+  int used = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%lf:%lf:%lf%n", &range.first, &range.last, &range.step, &used);
+  const bool whole = read == 3 && static_cast<std::size_t>(used) == text.size();
+  if (!whole || !(range.first >= 0 && range.first <= range.last && range.last <= 1) ||
+      !(range.step > 0))
+    throw UsageError(
+        fmt::format("--scan {}: write first:last:step with 0 <= first <= last <= 1, "
+                    "e.g. 0.4:0.9:0.005",
+                    text));
+  if ((range.last - range.first) / range.step > 1e5)
+    throw UsageError(fmt::format("--scan {}: more than 100000 shares; take a larger step", text));
+  return range;
+}
+
+PartitionScan scan_partition(const FitData& data, const ScanRange& range,
+                             const FitSettings& settings, const Bootstrap& bootstrap,
+                             const std::function<void(double shares)>& tell)
+{
+  const auto shares = range.shares();
+  double done = 0;
+  const auto tell_half = [&] {  // each share is met twice
+    done += 0.5;
+    if (tell) tell(done);
+  };
+  PartitionScan scan;
+  const double zero =
+      line_over_share(data, settings, Bootstrap(data.runs, 0, 1), settings.over).p_zero.value;
+  const double nearest = std::isfinite(zero) ? std::clamp(zero, 0.0, 1.0) : shares.front();
+  const auto at_nearest = dependence(data, uniform(nearest), settings);
+  scan.dependence = at_nearest;
+  if (bootstrap.count() > 0)
+    for (const double share : shares) {
+      scan.dependence = worse(scan.dependence, dependence(data, uniform(share), settings));
+      tell_half();
+    }
+  scan.dependence.block = at_nearest.block;
+  for (const double share : shares) {
+    scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
+    tell_half();
+  }
+  scan.line = line_over_share(data, settings, bootstrap, scan.fits.front().over);
+  return scan;
 }
 
 }  // namespace grseg

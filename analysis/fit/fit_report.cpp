@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_report.hpp"
 
-#include "analysis/frames/sums.hpp"
 #include "formats/cli/provenance.hpp"
+#include "formats/cli/readable_table.hpp"
 #include "formats/cli/table.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 namespace grseg {
 namespace {
@@ -29,6 +30,53 @@ std::vector<std::string> tables_of(const FitReport& report, const Flow& flow)
   return names;
 }
 
+std::string pair_name(const FitReport& report, const RuleFit& fit)
+{
+  if (report.species.empty()) return "S+L";
+  return report.species[fit.pair.smaller].name + '+' + report.species[fit.pair.larger].name;
+}
+
+/// The name of the flow that a row is of; "all" of all of them.
+std::string flow_name(const FitReport& report, const RuleFit& fit)
+{
+  if (fit.flow) return report.flows[*fit.flow].name;
+  return report.flows.size() == 1 ? report.flows.front().name : "all";
+}
+
+/// The rule, with the pair of species where there are more than two, and the flow where there are several.
+std::string row_name(const FitReport& report, const RuleFit& fit)
+{
+  auto name = rule_name(report, fit);
+  if (report.names_pairs()) name += " " + pair_name(report, fit);
+  if (report.is_by_flow()) name += ", " + flow_name(report, fit);
+  return name;
+}
+
+/// "3.1 % of the weight".
+std::string share_words(const FitReport& report, std::size_t flow)
+{
+  if (flow >= report.shares.size()) return "weight unknown";
+  return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
+}
+
+/// What each kind of interval in the report is over, in words.
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
+{
+  std::set<Population> used;
+  for (const auto& fit : report.rules) {
+    used.insert(fit.over);
+    for (const auto& [word, population, meaning] : populations)
+      if (std::isfinite(fit.at(population).low)) used.insert(population);
+  }
+  if (report.scan) used = {report.scan->fits.front().over};
+  const auto flows = static_cast<std::size_t>(
+      std::ranges::count_if(report.shares, [](double share) { return share > 0; }));
+  std::vector<std::pair<Population, std::string>> words;
+  words.reserve(used.size());
+  for (const auto over : used) words.emplace_back(over, estimand_words(over, flows));
+  return words;
+}
+
 /// "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv"
 std::string flow_line(const FitReport& report, std::size_t m)
 {
@@ -41,7 +89,7 @@ Header header_of(const FitReport& report)
 {
   Header lines = report.header;
   for (const auto& input : report.inputs) lines.emplace_back("input", input);
-  lines.insert(lines.end(), report.trust.begin(), report.trust.end());
+  add_all(lines, report.trust);
   for (const auto& line : report.history) lines.emplace_back("history", line);
   for (std::size_t m = 0; m < report.flows.size(); ++m)
     lines.emplace_back("flow", flow_line(report, m));
@@ -53,117 +101,85 @@ Header header_of(const FitReport& report)
   return lines;
 }
 
-/// Of all tables together that of all their grains is not known: not a number, unless there is one
-/// flow.
-double phi_large_of(const FitReport& report, const RuleFit& fit)
+/// Adds the numbers of one fit.
+void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule,
+                 std::vector<NumberRow>& rows)
 {
-  if (!fit.flow && report.flows.size() != 1) return no_number;
-  return report.flows[fit.flow.value_or(0)].phi_large();
-}
-
-double share_of(const FitReport& report, const RuleFit& fit)
-{
-  return fit.flow ? report.shares[*fit.flow] : 1;
-}
-
-/// Adds the numbers of one fit to a list.
-class NumbersOf {
- public:
-  NumbersOf(const FitReport& report, const RuleFit& fit, std::vector<NumberRow>& rows)
-      : report_(report), fit_(fit), rows_(rows)
-  {
-  }
-
-  void add_all(bool of_first_rule)
-  {
-    if (fit_.rule.adds_up()) add_b();
-    const auto over = fit_.over;
-    add("share", {fit_.share});
-    add("neutral", {fit_.neutral});
-    add_measured("B_minus_size", fit_.minus_size);
-    if (fit_.size_exponent) add("size_exponent", *fit_.size_exponent, over);
-    if (report_.with_paper)
-      for (const auto& [name, place] : estimator_columns)
-        if (std::string(name).starts_with("paper_"))
-          add(name, {fit_.value.*place, fit_.low.*place, fit_.high.*place}, over);
-    add("effective_windows", {fit_.dependence.effective_windows});
-    add("autocorrelation_time[windows]", {fit_.dependence.time});
-    if (!of_first_rule) return;
-    rule_ = "-";
-    add("Phi_L", {phi_large_of(report_, fit_)});
-    add("weight_share", {share_of(report_, fit_)});
-    add("runs", {static_cast<double>(fit_.runs)});
-    add("points", {static_cast<double>(fit_.points)});
-    add_measured("p_zero", fit_.line.p_zero);
-    add_measured("dB_dp", fit_.line.dB_dp);
-  }
-
- private:
-  /// Over what the fit is, then over all others.
-  void add_b()
-  {
-    add("B", {fit_.value.B, fit_.low.B, fit_.high.B}, fit_.over, fit_.degrees);
-    for (const auto& [word, population, meaning] : populations)
-      if (population != fit_.over) add("B", fit_.at(population), population);
-  }
-  void add_measured(const char* quantity, const Measured& measured)
-  {
-    add(quantity, measured.estimate(), fit_.over, measured.error.degrees);
-  }
-  /// Nothing where there is no number.
-  void add(const std::string& quantity, const Estimate& number,
-           Population over = Population::automatic, double degrees = no_number)
-  {
+  auto rule = rule_name(report, fit);
+  const auto add = [&](const std::string& quantity, const Estimate& number,
+                       Population over = Population::automatic, double degrees = no_number) {
     if (!std::isfinite(number.value)) return;
     const bool has_interval = std::isfinite(number.low);
-    rows_.push_back({.rule = rule_,
-                     .flow = flow_name(report_, fit_),
-                     .pair = pair_name(report_, fit_),
-                     .quantity = quantity,
-                     .over = has_interval ? word_of(over, populations) : "-",
-                     .of_flow = fit_.flow,
-                     .number = number,
-                     .degrees = has_interval ? degrees : no_number});
+    rows.push_back({.rule = rule,
+                    .flow = flow_name(report, fit),
+                    .pair = pair_name(report, fit),
+                    .quantity = quantity,
+                    .over = has_interval ? word_of(over, populations) : "-",
+                    .of_flow = fit.flow,
+                    .number = number,
+                    .degrees = has_interval ? degrees : no_number});
+  };
+  const auto add_measured = [&](const char* quantity, const Measured& measured) {
+    add(quantity, measured.estimate(), fit.over, measured.error.degrees);
+  };
+  if (fit.rule.adds_up()) {
+    add("B", {fit.value.B, fit.low.B, fit.high.B}, fit.over, fit.degrees);
+    for (const auto& [word, population, meaning] : populations)
+      if (population != fit.over) add("B", fit.at(population), population);
   }
-
-  const FitReport& report_;
-  const RuleFit& fit_;
-  std::vector<NumberRow>& rows_;
-  std::string rule_ = rule_name(report_, fit_);
-};
-
-/// The settings of a row's flow in which flows differ; nan of all flows together.
-std::vector<std::string> settings_of(const FitReport& report, const NumberRow& row)
-{
-  std::vector<std::string> values;
-  for (std::size_t k = 0; k < report.flows.front().settings.size(); ++k)
-    values.push_back(row.of_flow ? report.flows[*row.of_flow].settings[k].second : "nan");
-  return values;
+  add("share", {fit.share});
+  add("neutral", {fit.neutral});
+  add_measured("B_minus_size", fit.minus_size);
+  if (fit.size_exponent) add("size_exponent", *fit.size_exponent, fit.over);
+  for (const auto& [name, place] : estimator_columns)
+    if (report.with_paper && std::string(name).starts_with("paper_"))
+      add(name, {fit.value.*place, fit.low.*place, fit.high.*place}, fit.over);
+  add("effective_windows", {fit.dependence.effective_windows});
+  add("autocorrelation_time[windows]", {fit.dependence.time});
+  if (!of_first_rule) return;
+  rule = "-";
+  // Of several flows together that of all grains is not known.
+  if (fit.flow || report.flows.size() == 1)
+    add("Phi_L", {report.flows[fit.flow.value_or(0)].phi_large()});
+  add("weight_share", {fit.flow ? report.shares[*fit.flow] : 1});
+  add("runs", {static_cast<double>(fit.runs)});
+  add("points", {static_cast<double>(fit.points)});
+  add_measured("p_zero", fit.line.p_zero);
+  add_measured("dB_dp", fit.line.dB_dp);
 }
 
-std::vector<std::string> names_of_settings(const FitReport& report)
+/// The words of a row and its numbers, with their columns.
+std::vector<std::pair<const char*, std::string>> words_in(const FitReport& report,
+                                                          const NumberRow& row)
 {
-  std::vector<std::string> names;
-  if (report.flows.empty()) return names;
-  for (const auto& [name, value] : report.flows.front().settings) names.push_back(name);
-  return names;
+  return {{"rule", row.rule},         {"flow", row.flow},
+          {"pair", row.pair},         {"component", word_of(report.component, components)},
+          {"quantity", row.quantity}, {"over", row.over}};
+}
+std::vector<Cell> numbers_in(const NumberRow& row)
+{
+  return {{"value", row.number.value},
+          {"low", row.number.low},
+          {"high", row.number.high},
+          {"degrees_of_freedom", row.degrees}};
 }
 
+/// Last stand the settings of the row's flow in which flows differ; nan of all flows together.
 std::string rule_table(const FitReport& report)
 {
-  std::vector<std::string> columns{"rule", "flow",  "pair", "component", "quantity",
-                                   "over", "value", "low",  "high",      "degrees_of_freedom"};
-  const auto names = names_of_settings(report);
-  columns.insert(columns.end(), names.begin(), names.end());
+  std::vector<std::string> columns;
+  for (const auto& [column, word] : words_in(report, {})) columns.emplace_back(column);
+  add_all(columns, columns_of(numbers_in({})));
+  const auto settings =
+      report.flows.empty() ? decltype(Flow::settings){} : report.flows.front().settings;
+  for (const auto& [name, value] : settings) columns.push_back(name);
   std::vector<std::vector<std::string>> rows;
   for (const auto& row : number_rows(report)) {
-    auto& cells = rows.emplace_back(std::vector<std::string>{row.rule, row.flow, row.pair,
-                                                             word_of(report.component, components),
-                                                             row.quantity, row.over});
-    for (const double number : {row.number.value, row.number.low, row.number.high, row.degrees})
-      cells.push_back(format_number(number));
-    if (!names.empty())
-      for (auto& value : settings_of(report, row)) cells.push_back(std::move(value));
+    auto& cells = rows.emplace_back();
+    for (const auto& [column, word] : words_in(report, row)) cells.push_back(word);
+    add_all(cells, format_numbers(values_of(numbers_in(row))));
+    for (std::size_t k = 0; k < settings.size(); ++k)
+      cells.push_back(row.of_flow ? report.flows[*row.of_flow].settings[k].second : "nan");
   }
   return table_text(header_of(report), columns, rows);
 }
@@ -173,14 +189,13 @@ std::string scan_table(const FitReport& report)
   const auto& scan = *report.scan;
   Table table;
   table.header = header_of(report);
-  const auto zero = scan.line.p_zero.estimate(), slope = scan.line.dB_dp.estimate();
-  for (const auto& [key, value] : {std::pair{"p_zero", zero.value},
-                                   {"p_zero_low", zero.low},
-                                   {"p_zero_high", zero.high},
-                                   {"dB_dp", slope.value},
-                                   {"dB_dp_low", slope.low},
-                                   {"dB_dp_high", slope.high}})
-    table.header.emplace_back(key, format_number(value));
+  for (const auto& [key, measured] :
+       {std::pair<std::string, Measured>{"p_zero", scan.line.p_zero}, {"dB_dp", scan.line.dB_dp}}) {
+    const auto number = measured.estimate();
+    for (const auto& [end, value] :
+         {std::pair{"", number.value}, {"_low", number.low}, {"_high", number.high}})
+      table.header.emplace_back(key + end, format_number(value));
+  }
   table.columns = {"p", "B", "low", "high", "neutral"};
   for (const auto& fit : scan.fits)
     table.rows.push_back({fit.rule.value, fit.value.B, fit.low.B, fit.high.B, fit.neutral});
@@ -189,11 +204,9 @@ std::string scan_table(const FitReport& report)
 
 Json row_object(const FitReport& report, const NumberRow& row)
 {
-  Json object{{"rule", row.rule},          {"flow", row.flow},
-              {"pair", row.pair},          {"component", word_of(report.component, components)},
-              {"quantity", row.quantity},  {"over", row.over},
-              {"value", row.number.value}, {"low", row.number.low},
-              {"high", row.number.high},   {"degrees_of_freedom", row.degrees}};
+  Json object;
+  for (const auto& [column, word] : words_in(report, row)) object[column] = word;
+  for (const auto& [column, number] : numbers_in(row)) object[column] = number;
   if (row.of_flow)
     for (const auto& [name, value] : report.flows[*row.of_flow].settings) {
       const auto number = parse_number(value);
@@ -209,14 +222,8 @@ std::vector<NumberRow> number_rows(const FitReport& report)
   std::vector<NumberRow> rows;
   const auto first = report.rules.empty() ? "" : rule_name(report, report.rules.front());
   for (const auto& fit : report.rules)
-    NumbersOf(report, fit, rows).add_all(rule_name(report, fit) == first);
+    add_numbers(report, fit, rule_name(report, fit) == first, rows);
   return rows;
-}
-
-std::string pair_name(const FitReport& report, const RuleFit& fit)
-{
-  if (report.species.empty()) return "S+L";
-  return report.species[fit.pair.smaller].name + '+' + report.species[fit.pair.larger].name;
 }
 
 std::string rule_name(const FitReport& report, const RuleFit& fit)
@@ -224,60 +231,15 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
   return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
 }
 
-std::string row_name(const FitReport& report, const RuleFit& fit)
-{
-  auto name = rule_name(report, fit);
-  if (report.names_pairs()) name += " " + pair_name(report, fit);
-  if (report.is_by_flow()) name += ", " + flow_name(report, fit);
-  return name;
-}
-
-std::string share_words(const FitReport& report, std::size_t flow)
-{
-  if (flow >= report.shares.size()) return "weight unknown";
-  return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
-}
-
-std::string flow_name(const FitReport& report, const RuleFit& fit)
-{
-  if (fit.flow) return report.flows[*fit.flow].name;
-  return report.flows.size() == 1 ? report.flows.front().name : "all";
-}
-
-std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
-{
-  std::set<Population> used;
-  for (const auto& fit : report.rules) {
-    used.insert(fit.over);
-    for (const auto& [word, population, meaning] : populations)
-      if (std::isfinite(fit.at(population).low)) used.insert(population);
-  }
-  if (report.scan) used = {report.scan->fits.front().over};
-  const auto flows = static_cast<std::size_t>(
-      std::count_if(report.shares.begin(), report.shares.end(), [](double s) { return s > 0; }));
-  std::vector<std::pair<Population, std::string>> words;
-  words.reserve(used.size());
-  for (const auto over : used) words.emplace_back(over, estimand_words(over, flows));
-  return words;
-}
-
-std::string used_by(const FitReport& report, const RuleFit& fit)
-{
-  const std::string codes = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
-  return codes.empty() ? "-" : codes;
-}
-
 std::vector<std::string> doubts(const FitReport& report)
 {
-  std::vector<std::pair<std::string, std::string>> of_fits;  // a doubt, and whose it is
+  Header of_fits;  // a doubt, and whose it is
   const auto add = [&](const std::string& name, const std::string& doubt) {
-    if (doubt.empty()) return;
-    const auto same = std::find_if(of_fits.begin(), of_fits.end(),
-                                   [&](const auto& known) { return known.first == doubt; });
-    if (same == of_fits.end())
-      of_fits.emplace_back(doubt, name);
-    else
+    const auto same = std::ranges::find(of_fits, doubt, &HeaderLine::first);
+    if (same != of_fits.end())
       same->second += ", " + name;
+    else if (!doubt.empty())
+      of_fits.emplace_back(doubt, name);
   };
   for (const auto& fit : report.rules) add(row_name(report, fit), fit.doubt);
   if (report.scan) add("scan", report.scan->fits.front().doubt);
@@ -317,6 +279,188 @@ std::string to_json(const FitReport& report)
   for (const auto& line : report.history) all["history"].push_back(printable(line));
   all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
+}
+
+namespace {
+
+std::string rounded(const FitReport& report, double value)
+{
+  if (!std::isfinite(value)) return "-";
+  if (report.digits > 0) return fmt::format("{:.{}g}", value, report.digits);
+  const auto text = fmt::format("{:.3f}", value);
+  return text == "-0.000" ? "0.000" : text;
+}
+
+/// The codes that share mixed contacts so, cut where they are long; "-" where none is known.
+std::string used_by(const FitReport& report, const RuleFit& fit)
+{
+  constexpr std::size_t most = 44;  // a table is to fit 100 columns
+  const std::string codes = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
+  if (codes.empty()) return "-";
+  return codes.size() <= most ? codes : codes.substr(0, codes.rfind(' ', most - 4)) + " ...";
+}
+
+/// A sentence in lines of a hundred columns at most, those after the first indented.
+std::string wrapped(const std::string& sentence)
+{
+  constexpr auto most = readable_width;
+  std::string text;
+  std::size_t column = 0;
+  std::istringstream words(sentence);
+  for (std::string word; words >> word;) {
+    if (column > 0 && column + 1 + word.size() > most) {
+      text += "\n  ";
+      column = 2;
+    } else if (column > 0) {
+      text += ' ';
+      ++column;
+    }
+    text += word;
+    column += word.size();
+  }
+  return text + '\n';
+}
+
+using Line = std::vector<std::string>;  // all of the same length
+
+/// Words in the first and last column, numbers between them.
+std::string with_words_outside(const std::vector<Line>& lines)
+{
+  const auto last = lines.front().size() - 1;
+  return aligned(lines, [last](std::size_t c) { return c == 0 || c == last; });
+}
+
+std::string b_text(const FitReport& report, const Estimate& b)
+{
+  return std::isfinite(b.low) ? fmt::format("{} [{}, {}]", rounded(report, b.value),
+                                            rounded(report, b.low), rounded(report, b.high))
+                              : rounded(report, b.value);
+}
+
+std::string rules_text(const FitReport& report)
+{
+  std::vector<Line> lines{
+      {report.is_by_flow() ? "rule, flow" : "rule", "B [95 %]", "share", "used by"}};
+  for (const auto& fit : report.rules)
+    lines.push_back({row_name(report, fit), b_text(report, {fit.value.B, fit.low.B, fit.high.B}),
+                     rounded(report, fit.share), used_by(report, fit)});
+  return with_words_outside(lines);
+}
+
+/// What the paper fits: sigma^S/sigma^L = s phi_S/phi_L, or k (phi_S/phi_L)^a.
+std::string paper_text(const FitReport& report)
+{
+  if (!report.with_paper) return "";
+  std::vector<Line> lines{
+      {"as the paper fits", "s [95 %]", "B of s [95 %]", "k [95 %]", "a [95 %]"}};
+  for (const auto& fit : report.rules) {
+    auto& line = lines.emplace_back(Line{row_name(report, fit)});
+    for (const auto place :
+         {&Estimators::paper_s, &Estimators::paper_B, &Estimators::paper_k, &Estimators::paper_a})
+      line.push_back(b_text(report, {fit.value.*place, fit.low.*place, fit.high.*place}));
+  }
+  return '\n' + with_words_outside(lines);
+}
+
+/// B of every pair under a rule, the larger species along the lines.
+std::string matrix_text(const FitReport& report, const std::string& rule)
+{
+  const auto& species = report.species;
+  std::size_t width = 8;
+  for (const auto& one : species) width = std::max(width, one.name.size() + 2);
+  std::string text =
+      fmt::format("\nB by {}, larger species down, smaller across\n{:{}}", rule, "", width);
+  for (std::size_t k = 0; k + 1 < species.size(); ++k)
+    text += fmt::format("{:>{}}", species[k].name, width);
+  for (std::size_t b = 1; b < species.size(); ++b) {
+    text += fmt::format("\n{:<{}}", species[b].name, width);
+    for (const auto& fit : report.rules)
+      if (rule_name(report, fit) == rule && fit.pair.larger == b && !fit.flow)
+        text += fmt::format("{:>{}}", rounded(report, fit.value.B), width);
+  }
+  return text + '\n';
+}
+
+/// The numbers for all flows together under the rules that have B, and what each of them is.
+std::string populations_text(const FitReport& report)
+{
+  std::string text;
+  std::vector<Line> lines{{"all together", "B [95 %]", "over"}};
+  for (const auto& fit : report.rules)
+    for (const auto& [word, population, meaning] : populations) {
+      const auto& b = fit.at(population);
+      if (report.shares.size() < 2 || fit.flow || !std::isfinite(b.value)) continue;
+      lines.push_back({row_name(report, fit), b_text(report, b), word});
+    }
+  if (lines.size() > 1) text += '\n' + with_words_outside(lines);
+  if (report.flows.empty()) return text;
+  const auto words = estimands(report);
+  if (!words.empty()) text += '\n';
+  for (const auto& [over, sentence] : words)
+    text += wrapped(fmt::format("over {}: {}", word_of(over, populations), sentence));
+  if (report.flows.size() < 2) return text;
+  text += '\n';
+  for (std::size_t m = 0; m < report.flows.size(); ++m)
+    text += fmt::format("{}: {}, {}\n", report.flows[m].name,
+                        counted(report.flows[m].tables.size(), "table"), share_words(report, m));
+  return text;
+}
+
+/// What is known of all pairs together, each rule once.
+std::string pairs_text(const FitReport& report)
+{
+  const auto& first = report.rules.front().pair;
+  const bool several =
+      std::ranges::any_of(report.rules, [&](const RuleFit& fit) { return fit.pair != first; });
+  std::string text, last;
+  for (const auto& fit : report.rules) {
+    const auto rule = rule_name(report, fit);
+    if (rule == last) continue;
+    last = rule;
+    if (report.names_pairs() && several) text += matrix_text(report, rule);
+    const auto of_all = std::ranges::find_if(report.rules, [&](const RuleFit& other) {
+      return rule_name(report, other) == rule && other.size_exponent;
+    });
+    if (of_all != report.rules.end())
+      text += fmt::format("{}: a = {}: sigma^nu/sigma = phi^nu s^a/sum(phi s^a)\n", rule,
+                          b_text(report, *of_all->size_exponent));
+  }
+  return text;
+}
+
+/// p* and dB/dp of each flow and of all, which no rule changes.
+std::string line_text(const FitReport& report)
+{
+  std::string text;
+  const auto name = report.rules.empty() ? "" : rule_name(report, report.rules.front());
+  for (const auto& fit : report.rules)
+    if (rule_name(report, fit) == name && std::isfinite(fit.line.p_zero.value))
+      text += wrapped(fmt::format(
+          "B = 0 where the large grain gets p* = {} of every mixed contact; dB/dp = {}{}",
+          b_text(report, fit.line.p_zero.estimate()), b_text(report, fit.line.dB_dp.estimate()),
+          report.is_by_flow() ? "; " + flow_name(report, fit) : ""));
+  return text.empty() ? "" : '\n' + text;
+}
+
+}  // namespace
+
+std::string short_table(const FitReport& report)
+{
+  std::string text = fmt::format(
+      "B of the {} stress ({}), a mean with the weight phi_L phi_S, from {} of {}{}\n\n",
+      word_of(report.quantity, quantities), word_of(report.component, components),
+      counted(report.number_of_windows, "window"), counted(report.number_of_runs, "run"),
+      report.flows.size() > 1 ? fmt::format(" of {} flows", report.flows.size()) : "");
+  text += rules_text(report);
+  text += paper_text(report);
+  text += pairs_text(report);
+  text += line_text(report);
+  text += populations_text(report);
+  for (const auto& names : report.shared_runs)
+    text += fmt::format("counted as one run: {}\n", fmt::join(names, " "));
+  std::string of_doubts;
+  for (const auto& doubt : doubts(report)) of_doubts += wrapped("doubt: " + doubt);
+  return of_doubts.empty() ? text : text + '\n' + of_doubts;
 }
 
 }  // namespace grseg

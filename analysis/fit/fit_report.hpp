@@ -2,8 +2,8 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
-#include "analysis/fit/partition_scan.hpp"
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/frames/sums.hpp"
 
@@ -39,39 +39,22 @@ struct FitReport {
   /// Whether rows are of one flow each, beside those of all.
   bool is_by_flow() const
   {
-    return std::any_of(rules.begin(), rules.end(),
-                       [](const RuleFit& fit) { return fit.flow.has_value(); });
+    return std::ranges::any_of(rules, [](const RuleFit& fit) { return fit.flow.has_value(); });
   }
 };
 
-/// "S+L", the smaller species first.
-std::string pair_name(const FitReport& report, const RuleFit& fit);
 /// The rule as typed; "kinetic" for kinetic stress, which no rule concerns.
 std::string rule_name(const FitReport& report, const RuleFit& fit);
-/// The same, with the pair of species where there are more than two, and the flow where there
-/// are several.
-std::string row_name(const FitReport& report, const RuleFit& fit);
-/// The codes that share mixed contacts so; "-" where none is known.
-std::string used_by(const FitReport& report, const RuleFit& fit);
-
-/// The name of the flow that a row is of; "all" of all of them.
-std::string flow_name(const FitReport& report, const RuleFit& fit);
-
-/// "3.1 % of the weight".
-std::string share_words(const FitReport& report, std::size_t flow);
-
-/// What each kind of interval in the report is over, in words.
-std::vector<std::pair<Population, std::string>> estimands(const FitReport& report);
 
 /// Reasons why intervals may be too narrow, mostly none: those of the tables, one for each rule, one for
 /// the scan.
-/// Both forms below contain them.
 std::vector<std::string> doubts(const FitReport& report);
 
 /// A number of the report.
 struct NumberRow {
-  std::string rule, flow, pair, quantity, over;  // "-" where it is of all rules, or has no interval
-  std::optional<std::size_t> of_flow;            // that it is of
+  // "-" where it is of all rules, or has no interval; the pair "S+L", the smaller species first.
+  std::string rule, flow, pair, quantity, over;
+  std::optional<std::size_t> of_flow;  // that it is of
   Estimate number;
   double degrees = no_number;  // of freedom of the interval
 };
@@ -87,5 +70,11 @@ std::vector<NumberRow> number_rows(const FitReport& report);
 std::string to_tsv(const FitReport& report);
 /// The same as one JSON object; what is not a number is null.
 std::string to_json(const FitReport& report);
+
+/// The report for reading on a terminal: per rule B at phi_L = 1/2 with its interval, beside it that
+/// of the pressure (or, of the pressure, that of yy) where the table has it, the share of
+/// the mixed contacts' stress that large grains get, the number of points, and whose rule it is;
+/// then p* and the doubts. Three decimals, or FitReport::digits; "-" where there is no number.
+std::string short_table(const FitReport& report);
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/flows.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
@@ -15,9 +15,9 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 namespace grseg {
 namespace {
@@ -51,10 +51,9 @@ constexpr std::string_view keys_in_metres[] = {
     "depth",        "base-diameter", "base-height-spread", "base-spacing", "drum-diameter",
     "column-width", "outlet",        "shake-amplitude"};
 
-template <class List>
-bool holds(const List& list, std::string_view word)
+bool holds(std::span<const std::string_view> list, std::string_view word)
 {
-  return std::find(std::begin(list), std::end(list), word) != std::end(list);
+  return std::ranges::find(list, word) != list.end();
 }
 
 /// What the line "# scene: KEY = VALUE; ..." of a table says that tells its flow from others; nothing
@@ -69,12 +68,6 @@ std::map<std::string, std::string> scene_of(const Table& table)
       scene[word.substr(0, equals)] = word.substr(equals + 3);
   }
   return scene;
-}
-
-/// "unknown" where the table has no such line.
-std::string value_of(const Table& table, const char* key)
-{
-  return header_or(table, key, "unknown");
 }
 
 bool near(double a, double b, double tolerance)
@@ -94,7 +87,7 @@ bool same_species(const SpeciesList& a, const SpeciesList& b, double tolerance)
 
 bool agree(const Table& one, const Table& other, const FlowLine& line)
 {
-  const auto a = value_of(one, line.key), b = value_of(other, line.key);
+  const auto a = header_or(one, line.key, "unknown"), b = header_or(other, line.key, "unknown");
   if (a == b) return true;
   const auto x = parse_number(a), y = parse_number(b);
   if (x && y) return near(*x, *y, line.tolerance);
@@ -129,9 +122,8 @@ std::vector<double> composition_of(const FitTable& table)
 
 bool same_composition(const std::vector<double>& a, const std::vector<double>& b)
 {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (std::abs(a[k] - b[k]) > composition_tolerance) return false;
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](double x, double y) { return std::abs(x - y) <= composition_tolerance; });
 }
 
 /// How many tables each flow has, of "4,4,2".
@@ -140,13 +132,11 @@ std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tabl
   std::vector<std::size_t> counts;
   std::istringstream words(grouping);
   for (std::string word; std::getline(words, word, ',');) {
-    const bool number =
-        !word.empty() && word.size() < 7 &&
-        std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
-    counts.push_back(number ? std::stoul(word) : 0);
+    const bool number = word.size() < 7 && word.find_first_not_of("0123456789") == word.npos;
+    counts.push_back(number && !word.empty() ? std::stoul(word) : 0);
   }
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-  if (std::count(counts.begin(), counts.end(), 0) > 0 || sum != tables)
+  if (std::ranges::find(counts, 0U) != counts.end() || sum != tables)
     throw UsageError(fmt::format(
         "--flows {}: write auto, or how many of the tables ({} here) are of each flow, in "
         "their order, as in 4,4,2",
@@ -175,11 +165,11 @@ std::vector<Flow> by_likeness(const std::vector<FitTable>& tables)
       const auto& first = *tables[flow.tables.front()].table;
       return same_composition(flow.composition, composition) &&
              scene_differences(first, *tables[k].table).empty() &&
-             std::all_of(std::begin(flow_lines), std::end(flow_lines), [&](const FlowLine& line) {
+             std::ranges::all_of(flow_lines, [&](const FlowLine& line) {
                return agree(first, *tables[k].table, line);
              });
     };
-    const auto own = std::find_if(flows.begin(), flows.end(), is_own);
+    const auto own = std::ranges::find_if(flows, is_own);
     if (own != flows.end())
       own->tables.push_back(k);
     else
@@ -198,11 +188,9 @@ double slope_of(const Table& table)
 /// "Phi_L = 0.30", "Phi = 0.2/0.3/0.5".
 std::string composition_words(const Flow& flow)
 {
-  if (flow.composition.size() <= 2) return fmt::format("Phi_L = {:.2f}", flow.phi_large());
-  std::string words = "Phi = ";
-  for (std::size_t k = 0; k < flow.composition.size(); ++k)
-    words += fmt::format("{}{:.2f}", k == 0 ? "" : "/", flow.composition[k]);
-  return words;
+  return flow.composition.size() <= 2
+             ? fmt::format("Phi_L = {:.2f}", flow.phi_large())
+             : fmt::format("Phi = {:.2f}", fmt::join(flow.composition, "/"));
 }
 
 /// Adds a setting in which flows differ: a column, and a part of the flow's name.
@@ -215,16 +203,13 @@ void add_setting(Flow& flow, const std::string& key, const std::string& unit,
 }
 
 /// Adds the keys of scenes in which flows differ.
-void describe_scene(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
+void describe_scene(Flow& flow, const std::vector<const Table*>& tables, const Table& table)
 {
-  const auto table_of = [&](const Flow& of) -> const Table& {
-    return *tables[of.tables.front()].table;
-  };
   std::set<std::string> keys;
-  for (const auto& one : all)
-    for (const auto& other : all)
-      for (auto& key : scene_differences(table_of(one), table_of(other))) keys.insert(key);
-  const auto own = scene_of(table_of(flow));
+  for (const auto* one : tables)
+    for (const auto* other : tables)
+      for (auto& key : scene_differences(*one, *other)) keys.insert(key);
+  const auto own = scene_of(table);
   for (const auto& key : keys) {
     const auto value = own.find(key);
     add_setting(flow, key,
@@ -239,14 +224,14 @@ void describe_scene(Flow& flow, const std::vector<Flow>& all, const std::vector<
 void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
 {
   const auto& own = *tables[flow.tables.front()].table;
-  const auto differ = [&](const char* key) {
-    const auto& line =
-        *std::find_if(std::begin(flow_lines), std::end(flow_lines),
-                      [&](const FlowLine& one) { return one.key == std::string(key); });
-    return std::any_of(all.begin(), all.end(), [&](const Flow& other) {
-      return std::any_of(all.begin(), all.end(), [&](const Flow& one) {
-        return !agree(*tables[one.tables.front()].table, *tables[other.tables.front()].table, line);
-      });
+  std::vector<const Table*> of_flows;
+  of_flows.reserve(all.size());
+  for (const auto& one : all) of_flows.push_back(tables[one.tables.front()].table);
+  const auto differ = [&](std::string_view key) {
+    const auto& line = *std::ranges::find(flow_lines, key, &FlowLine::key);
+    return std::ranges::any_of(of_flows, [&](const Table* other) {
+      return std::ranges::any_of(of_flows,
+                                 [&](const Table* one) { return !agree(*one, *other, line); });
     });
   };
   flow.name = composition_words(flow);
@@ -258,9 +243,9 @@ void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTab
   }
   for (const auto& [key, unit, what, tolerance] : flow_lines) {
     if (!differ(key) || (inclined && std::string(key).starts_with("gravity"))) continue;
-    add_setting(flow, key, unit, value_of(own, key));
+    add_setting(flow, key, unit, header_or(own, key, "unknown"));
   }
-  describe_scene(flow, all, tables);
+  describe_scene(flow, of_flows, own);
 }
 
 }  // namespace
@@ -270,14 +255,13 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
   if (grouping != "auto") return "as given: " + grouping + " tables";
   std::vector<std::string> recorded;
   for (const auto& line : flow_lines) {
-    const bool known = std::any_of(tables.begin(), tables.end(), [&](const Table& table) {
-      return value_of(table, line.key) != "unknown";
+    const bool known = std::ranges::any_of(tables, [&](const Table& table) {
+      return header_or(table, line.key, "unknown") != "unknown";
     });
     if (known && (recorded.empty() || recorded.back() != line.what))
       recorded.emplace_back(line.what);
   }
-  if (std::any_of(tables.begin(), tables.end(),
-                  [](const Table& table) { return table.has_header("scene"); }))
+  if (std::ranges::any_of(tables, [](const Table& table) { return table.has_header("scene"); }))
     recorded.emplace_back("keys of the scene");
   return fmt::format(
       "runs of one flow agree in what their tables record of the flow ({}), diameters to {:g} %, "
@@ -288,7 +272,7 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
 std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& grouping)
 {
   auto flows = grouping == "auto" ? by_likeness(tables) : by_count(tables, grouping);
-  std::stable_sort(flows.begin(), flows.end(), [](const Flow& a, const Flow& b) {
+  std::ranges::stable_sort(flows, [](const Flow& a, const Flow& b) {
     return std::round(100 * a.phi_large()) < std::round(100 * b.phi_large());
   });
   for (std::size_t m = 0; m < flows.size(); ++m) {
@@ -300,28 +284,25 @@ std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& g
 
 FitData of_flow(const FitData& data, std::size_t flow)
 {
-  FitData part;
-  part.quantity = data.quantity;
-  part.dimension = data.dimension;
-  part.tables = data.tables;
-  part.species = data.species;
-  part.window = data.window;
-  part.count = data.count;
-  std::vector<std::size_t> run_of, window_of;  // of each window: its run, its number in the part
-  for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    const bool own = data.flow_of(run) == flow;
-    const auto first = number_of_windows(part.runs);
-    for (std::size_t k = 0; k < data.runs[run]; ++k) {
-      run_of.push_back(run);
-      window_of.push_back(first + k);
+  FitData part{.quantity = data.quantity,
+               .dimension = data.dimension,
+               .tables = data.tables,
+               .species = data.species,
+               .window = data.window,
+               .count = data.count};
+  for (std::size_t run = 0; run < data.runs.size(); ++run)
+    if (data.flow_of(run) == flow) {
+      part.runs.push_back(data.runs[run]);
+      part.flows.push_back(flow);
     }
-    if (!own) continue;
-    part.runs.push_back(data.runs[run]);
-    part.flows.push_back(flow);
-  }
+  const auto flow_of_window = data.flows_of_windows();
+  std::vector<std::size_t> window_of;  // of each window its number in the part
+  window_of.reserve(flow_of_window.size());
+  std::size_t own = 0;
+  for (const auto of : flow_of_window) window_of.push_back(of == flow ? own++ : own);
   std::map<std::size_t, std::size_t> row_of;
   for (auto sample : data.samples) {
-    if (data.flow_of(run_of[sample.window]) != flow) continue;
+    if (flow_of_window[sample.window] != flow) continue;
     const auto [entry, fresh] = row_of.try_emplace(sample.row, part.rows.size());
     if (fresh) part.rows.push_back(data.rows[sample.row]);
     sample.window = window_of[sample.window];

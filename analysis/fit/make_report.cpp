@@ -2,9 +2,7 @@
 #include "analysis/fit/make_report.hpp"
 
 #include "analysis/fit/data_doubts.hpp"
-#include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_pairs.hpp"
-#include "analysis/fit/partition_scan.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -15,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

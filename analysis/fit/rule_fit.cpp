@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
 
-#include "analysis/fit/estimators.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace grseg {
@@ -100,9 +98,9 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
 
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error)
 {
-  const auto interval = error.interval_around(fit.value.*place);
-  fit.low.*place = interval.low;
-  fit.high.*place = interval.high;
+  const auto estimate = error.around(fit.value.*place);
+  fit.low.*place = estimate.low;
+  fit.high.*place = estimate.high;
   fit.error.*place = error.error;
   if (place == &Estimators::B) fit.degrees = error.degrees;
 }

@@ -26,8 +26,8 @@ struct LineOverShare {
 /// only where there is no third one.
 struct RuleFit {
   PartitionRule rule;
-  std::size_t points = 0;    // layers and windows
-  double share = no_number;  // the p that gives this B (rule_fit.hpp); drop: NaN
+  std::size_t points = 0;                 // layers and windows
+  double share = no_number;               // the p that gives this B (rule_fit.hpp); drop: NaN
   Population over = Population::windows;  // what the intervals of 95 % are over
   std::optional<std::size_t> flow;        // number of the one that the fit is of; none: of all
   std::size_t runs = 0;

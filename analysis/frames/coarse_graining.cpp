@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
 
 namespace grseg {

@@ -5,7 +5,6 @@
 #include "formats/cli/words.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/composition.hpp"
 
-#include "analysis/frames/sums.hpp"
-
 #include <algorithm>
 #include <array>
 

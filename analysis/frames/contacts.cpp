@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/contacts.hpp"
 
-#include <Eigen/Geometry>
-
 namespace grseg {
 namespace {
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 
-#include "analysis/frames/layer_key.hpp"
-#include "formats/cli/progress.hpp"
-#include "formats/cli/provenance.hpp"
-#include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/length.hpp"
+#include "formats/export/map_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <thread>
 
 namespace grseg {
 namespace {
@@ -90,12 +91,10 @@ void FrameLoop::require_two_species() const
 {
   const auto& all = species();
   if (all.size() == 2) return;
-  std::string names;
-  for (const auto& one : all) names += (names.empty() ? "" : ", ") + one.name;
   throw UsageError(fmt::format(
       "{}: {} compares two species, and the run has {} ({}): make them two with --group, as in "
       "--group S=1 --group L=2,3, with --classes 2, or with one --edges",
-      run_.path(), info_.name, all.size(), names));
+      run_.path(), info_.name, all.size(), fmt::join(names_of(all), ", ")));
 }
 
 void FrameLoop::require_forces(const char* what, const char* remedy) const
@@ -117,5 +116,118 @@ void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Field
 }
 template void FrameLoop::read(std::size_t, Frame<2>&, TrajectoryReader::Fields);
 template void FrameLoop::read(std::size_t, Frame<3>&, TrajectoryReader::Fields);
+
+namespace {
+
+const std::vector<std::string> all_bins{"layers", "radius", "radius:X,Y", "xy",
+                                        "xz",     "rz",     "rz:X,Y"};
+
+/// A map may go to a file for other programs, which is no text.
+void check_map_output(const FrameOptions& options, const po::variables_map& values)
+{
+  const auto& output = options.output;
+  if (!options.map())
+    throw UsageError(
+        fmt::format("-o {}: only maps become such files; take --bins xy, or a name "
+                    "that ends in .tsv",
+                    output.path));
+  if (options.json) throw UsageError("--json prints text; give it without -o, or a name in .json");
+  if (output.short_form || output.digits > 0)
+    throw UsageError(fmt::format(
+        "-o {}: --short and --digits are for text; leave them out, or take a name in .tsv",
+        output.path));
+  check_map_file(output, {single_input(values, "a table is made of one run")});
+}
+
+}  // namespace
+
+void FrameOptions::add_to(po::options_description& options, Makes makes)
+{
+  auto add = options.add_options();
+  add("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
+      "thickness of the layers: 4dS, 2dL, 20mm, or metres");
+  add("window", window_option(windows),
+      "time to average over; windows that the run does not fill are left out. "
+      "all: one window over all frames used");
+  add("begin", time_option(windows.begin), "first window begins here (default: t = 0)");
+  add("end", time_option(windows.end), "no window ends after this (default: the run)");
+  add("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
+      "use one frame in N");
+  add("threads", po::value(&threads)->default_value(1)->value_name("N"),
+      "number of threads, 0: one per processor; results are bitwise identical");
+  trust.add_to(options);
+  add("json", po::bool_switch(&json), "print JSON instead of a table");
+  add("quiet", po::bool_switch(&quiet), "no progress and no remarks");
+  grouping.add_to(options);
+  if (makes == Makes::table)
+    output.add_to(options);
+  else
+    output.OutputOptions::add_to(options);
+}
+
+void FrameOptions::add_bins_to(po::options_description& options)
+{
+  options.add_options()(
+      "bins", word_option(&bins, all_bins),
+      "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
+      "this axis), of thickness --layer; in annuli y is the distance from the axis, and x runs "
+      "round it clockwise. Or a map of cells of side --layer: xy, in three dimensions also xz and "
+      "rz or rz:X,Y (distance from an axis along z); maps may go to .h5, .vti and .pvd files");
+}
+
+std::optional<MapPlane> FrameOptions::map() const
+{
+  return find_choice(bins.substr(0, bins.find(':')), map_planes);
+}
+
+std::optional<Vec2> FrameOptions::axis(const TrajectoryReader& run) const
+{
+  if (bins == "layers" || bins == "xy" || bins == "xz") return {};
+  const std::string word = bins.substr(0, bins.find(':'));
+  if (word != "radius" && word != "rz") throw UsageError(unknown_word("--bins", bins, all_bins));
+  if (bins == word) {
+    const auto& numbers = run.parameters().numbers;
+    const auto centre = numbers.find("drum_centre");
+    if (centre == numbers.end() || centre->second.size() != 2)
+      throw UsageError(fmt::format(
+          "--bins {0}: the run has no drum; give the axis, as in --bins {0}:0.1m,0.2m", word));
+    return Vec2(centre->second[0], centre->second[1]);
+  }
+  const std::string place = bins.substr(word.size() + 1);
+  const auto comma = place.find(',');
+  if (comma == std::string::npos)
+    throw UsageError(
+        fmt::format("--bins {}: an axis has two coordinates, as in {}:0.1m,0.2m", bins, word));
+  const LengthUnits units{run.small_diameter(), run.large_diameter()};
+  const auto option = "--bins " + word + ":";
+  return Vec2(parse_length(place.substr(0, comma), option, units),
+              parse_length(place.substr(comma + 1), option, units));
+}
+
+FrameOptions FrameOptions::checked(const po::variables_map& values) const
+{
+  auto own = *this;
+  parts.check(output.path);
+  if (const auto& part = parts.part) {
+    if (json)
+      throw UsageError(fmt::format("--part {} makes a table; give --json to --join", part->text()));
+    own.output.path = part->path(output.path, ".tsv");
+  }
+  own.output.check(values);
+  if (threads < 0 || threads > 1024)
+    throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", threads));
+  if (threads == 0)
+    own.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (is_map_file(output.path)) check_map_output(*this, values);
+  return own;
+}
+
+void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
+                    const char* why)
+{
+  for (const char* option : options)
+    if (values.contains(option) && !values[option].defaulted())
+      throw UsageError(fmt::format("--{} {}", option, why));
+}
 
 }  // namespace grseg

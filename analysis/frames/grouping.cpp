@@ -23,22 +23,15 @@ std::vector<std::string> words_of(const std::string& text)
   return words;
 }
 
-/// "1 small, 2 large"
-std::string numbers_and_names(const SpeciesList& species)
-{
-  std::string text;
-  for (std::size_t k = 0; k < species.size(); ++k)
-    text += fmt::format("{}{} {}", k == 0 ? "" : ", ", k + 1, species[k].name);
-  return text;
-}
-
 std::size_t find_species(const SpeciesList& species, const std::string& word,
                          const std::string& option)
 {
+  if (const auto found = number_of_species(word, species)) return *found;
+  std::string all;  // "1 small, 2 large"
   for (std::size_t k = 0; k < species.size(); ++k)
-    if (word == species[k].name || word == std::to_string(k + 1)) return k;
-  throw UsageError(fmt::format("--group {}: the run has no species '{}'; it has {}", option, word,
-                               numbers_and_names(species)));
+    all += fmt::format("{}{} {}", k == 0 ? "" : ", ", k + 1, species[k].name);
+  throw UsageError(
+      fmt::format("--group {}: the run has no species '{}'; it has {}", option, word, all));
 }
 
 /// The number of a group for every species of the run.
@@ -62,7 +55,7 @@ Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& 
           "--group {}: write NAME=LIST, as in AM=1,2, with a name of at most 15 letters, digits, "
           "'_', '-' or '.'",
           option));
-    if (std::find(groups.names.begin(), groups.names.end(), name) != groups.names.end())
+    if (std::ranges::find(groups.names, name) != groups.names.end())
       throw UsageError(fmt::format("--group {} is given twice; name all its species in one", name));
     for (const auto& word : words_of(option.substr(sign + 1))) {
       auto& group = groups.of_species[find_species(species, word, option)];
@@ -79,18 +72,11 @@ Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& 
   return groups;
 }
 
-/// Which of the classes between `edges` (diameters, increasing) a grain belongs to.
-std::size_t class_of(double diameter, const std::vector<double>& edges)
-{
-  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), diameter) -
-                                  edges.begin());
-}
-
 std::vector<double> parse_edges(const std::string& text, LengthUnits units)
 {
   std::vector<double> edges;
   for (const auto& word : words_of(text)) edges.push_back(parse_length(word, "--edges", units));
-  if (edges.empty() || !std::is_sorted(edges.begin(), edges.end(), std::less_equal<>()))
+  if (edges.empty() || !std::ranges::is_sorted(edges, std::less_equal<>()))
     throw UsageError(
         fmt::format("--edges {}: give diameters in increasing order, as in 2mm,3mm", text));
   return edges;
@@ -107,7 +93,7 @@ std::vector<Size> sizes_of(const Grains& grains, int dimension)
   std::vector<double> diameters;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g)) diameters.push_back(2 * grains.radius[g]);
-  std::sort(diameters.begin(), diameters.end());
+  std::ranges::sort(diameters);
   std::vector<Size> sizes;
   double below = 0;
   for (const double d : diameters) {
@@ -161,7 +147,7 @@ GroupedGrains regrouped(const TrajectoryReader& run, const std::vector<std::stri
     if (!(volume[k] > 0)) throw UsageError(fmt::format("no mobile grain belongs to {}", names[k]));
   std::vector<std::size_t> order(names.size()), rank(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return volume[a] / surface[a] < volume[b] / surface[b];
   });
   GroupedGrains result{grains, {}};
@@ -176,6 +162,20 @@ GroupedGrains regrouped(const TrajectoryReader& run, const std::vector<std::stri
 
 }  // namespace
 
+std::optional<std::size_t> number_of_species(const std::string& word, const SpeciesList& species)
+{
+  for (std::size_t k = 0; k < species.size(); ++k)
+    if (word == species[k].name || word == std::to_string(k + 1)) return k;
+  return {};
+}
+
+std::vector<std::string> names_of(const SpeciesList& species)
+{
+  std::vector<std::string> names;
+  for (const auto& one : species) names.push_back(one.name);
+  return names;
+}
+
 void GroupingOptions::add_to(po::options_description& options)
 {
   options.add_options()("group", po::value(&groups)->composing()->value_name("NAME=LIST"),
@@ -189,9 +189,7 @@ void GroupingOptions::add_to(po::options_description& options)
 
 GroupedGrains group_grains(const TrajectoryReader& run, const GroupingOptions& options)
 {
-  const int given = static_cast<int>(!options.groups.empty()) +
-                    static_cast<int>(options.classes != 0) +
-                    static_cast<int>(!options.edges.empty());
+  const int given = !options.groups.empty() + (options.classes != 0) + !options.edges.empty();
   if (given > 1) throw UsageError("--group, --classes and --edges exclude each other");
   const auto& grains = run.grains();
   if (!options.groups.empty()) {
@@ -199,12 +197,12 @@ GroupedGrains group_grains(const TrajectoryReader& run, const GroupingOptions& o
     auto result = regrouped(run, groups.names, [&](std::size_t g) {
       return groups.of_species[static_cast<std::size_t>(grains.species[g])];
     });
-    for (auto& [name, diameter] : result.species)
-      for (std::size_t k = 0; k < run.species().size(); ++k)
-        if (groups.names[groups.of_species[k]] == name &&
-            std::count(groups.of_species.begin(), groups.of_species.end(), groups.of_species[k]) ==
-                1)
-          diameter = run.species()[k].diameter;
+    for (std::size_t k = 0; k < run.species().size(); ++k) {
+      const auto group = groups.of_species[k];
+      if (std::ranges::count(groups.of_species, group) == 1)
+        std::ranges::find(result.species, groups.names[group], &SpeciesEntry::name)->diameter =
+            run.species()[k].diameter;
+    }
     return result;
   }
   if (given == 0) return {grains, run.species()};
@@ -215,8 +213,10 @@ GroupedGrains group_grains(const TrajectoryReader& run, const GroupingOptions& o
                          : parse_edges(options.edges, {run.small_diameter(), run.large_diameter()});
   std::vector<std::string> names;
   for (std::size_t k = 0; k <= edges.size(); ++k) names.push_back(fmt::format("c{}", k + 1));
-  return regrouped(run, names,
-                   [&](std::size_t g) { return class_of(2 * grains.radius[g], edges); });
+  return regrouped(run, names, [&](std::size_t g) {
+    return static_cast<std::size_t>(std::ranges::upper_bound(edges, 2 * grains.radius[g]) -
+                                    edges.begin());
+  });
 }
 
 }  // namespace grseg

@@ -5,10 +5,16 @@
 #include "formats/core/species.hpp"
 #include "formats/trajectory/reader.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace grseg {
+
+/// The number of the species that a word names, or of which it is the number, from 1.
+std::optional<std::size_t> number_of_species(const std::string& word, const SpeciesList& species);
+std::vector<std::string> names_of(const SpeciesList& species);
 
 /// Into which species the mobile grains of a run are divided, as given on the command line; by
 /// default into those of its file.

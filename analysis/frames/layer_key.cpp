@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_key.hpp"
 
+#include "analysis/frames/map_grid.hpp"
 #include "analysis/frames/sums.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_statistics.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <sstream>
+#include <utility>
 
 namespace grseg {
 
@@ -116,6 +121,195 @@ bool RowRange::holds_window(const LayerKey& key) const
 {
   const double slack = 1e-9 * (1 + std::abs(key.begin) + std::abs(key.end));
   return !(key.begin < begin - slack) && !(key.end > end + slack);
+}
+
+namespace {
+
+[[noreturn]] void refuse_row(const Table& table, std::size_t row, const std::string& why)
+{
+  throw FormatError(fmt::format("{}: row {}: {}", table.name, row + 1, why));
+}
+
+void require_positive_header(const Table& table)
+{
+  for (const char* key : {"small_diameter", "large_diameter", "step", "layer", "window"})
+    if (table.has_header(key)) table.header_positive(key);
+}
+
+void require_sense(const Table& table, std::size_t row, const LayerKey& key)
+{
+  const bool bed = std::isnan(key.bottom) && std::isnan(key.top);
+  if (!(key.begin < key.end))
+    refuse_row(table, row, fmt::format("a window from {:g} to {:g} s", key.begin, key.end));
+  if (!bed && !(key.bottom < key.top && std::isfinite(key.top - key.bottom)))
+    refuse_row(table, row, fmt::format("a layer from {:g} to {:g} m", key.bottom, key.top));
+  if (!(key.frames > 0) || key.frames != std::floor(key.frames))
+    refuse_row(table, row, fmt::format("{} frames", format_number(key.frames)));
+  if (bed ? key.volume < 0 : !(key.volume > 0))
+    refuse_row(
+        table, row,
+        fmt::format("a volume V of {} m^{}", format_number(key.volume), dimension_of(table)));
+}
+
+/// An interval and the row that it stands in.
+struct Piece {
+  double begin, end;
+  std::size_t row;
+};
+
+/// FormatError where intervals that are not the same overlap, beyond round-off.
+void refuse_overlaps(const Table& table, std::vector<Piece> pieces, const char* what)
+{
+  std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
+    return std::pair(a.begin, a.end) < std::pair(b.begin, b.end);
+  });
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    const auto &a = pieces[k - 1], &b = pieces[k];
+    constexpr double round_off = 1e-6;  // of their length: tables may be kept with fewer digits
+    if (b.begin < a.end - round_off * std::min(a.end - a.begin, b.end - b.begin))
+      throw FormatError(fmt::format("{}: the {} of rows {} and {} overlap", table.name, what,
+                                    std::min(a.row, b.row) + 1, std::max(a.row, b.row) + 1));
+  }
+}
+
+using Span = std::pair<double, double>;
+
+void refuse_overlapping_rows(const Table& table, const std::vector<LayerKey>& keys)
+{
+  std::map<Span, std::map<Span, std::size_t>> layers_of;  // of each window, with their rows
+  std::map<Span, std::size_t> bed_of;
+  std::vector<Piece> windows;
+  for (std::size_t row = 0; row < keys.size(); ++row) {
+    const auto& key = keys[row];
+    const Span window(key.begin, key.end);
+    if (!layers_of.contains(window)) windows.push_back({key.begin, key.end, row});
+    auto& layers = layers_of[window];
+    const auto [place, is_new] = std::isnan(key.bottom)
+                                     ? bed_of.emplace(window, row)
+                                     : layers.emplace(Span(key.bottom, key.top), row);
+    if (!is_new)
+      throw FormatError(fmt::format("{}: row {} repeats a window and layer, those of row {}",
+                                    table.name, row + 1, place->second + 1));
+  }
+  refuse_overlaps(table, windows, "windows");
+  for (const auto& [window, layers] : layers_of) {
+    std::vector<Piece> pieces;
+    for (const auto& [layer, row] : layers) pieces.push_back({layer.first, layer.second, row});
+    refuse_overlaps(table, std::move(pieces), "layers");
+  }
+}
+
+}  // namespace
+
+int dimension_of(const Table& table)
+{
+  const auto word = header_or(table, "dimension", "2");
+  if (word == "2") return 2;
+  if (word == "3") return 3;
+  throw FormatError(fmt::format("{}: '# dimension: {}' should be 2 or 3", table.name, word));
+}
+
+SpeciesList species_of(const Table& table)
+{
+  if (!table.has_header("species"))
+    return two_sizes(table.header_positive("small_diameter"),
+                     table.header_positive("large_diameter"));
+  if (auto list = parse_species(table.header_text("species")); !list.empty()) return list;
+  throw FormatError(fmt::format(
+      "{}: '# species: {}' should list names and diameters in order of size, as in SE 3e-06, AM "
+      "1.2e-05",
+      table.name, table.header_text("species")));
+}
+
+Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
+                     const std::string& preset, const std::string& command)
+{
+  Header header{program_line(info)};
+  if (!info.presets.empty()) header.emplace_back("preset", preset);
+  for (const auto& line : header_values(tables, "history")) header.emplace_back("history", line);
+  header.emplace_back("history", command);
+  for (const auto& input : header_values(tables, "input")) header.emplace_back("input", input);
+  return add_all(header, trust_of(tables));
+}
+
+void refuse_map(const Table& table)
+{
+  const auto bins = header_or(table, "bins", "");
+  if (find_choice(bins.substr(0, bins.find(' ')), map_planes))
+    throw FormatError(fmt::format(
+        "{}: a map (bins: {}), whose rows are cells, not layers; make the table without --bins",
+        table.name, bins));
+}
+
+std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy)
+{
+  refuse_map(table);
+  const int dimension = dimension_of(table);
+  std::array<std::size_t, key_columns.size()> columns{};
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    columns[c] = find_column(table, key_columns[c].name_with_unit(dimension), remedy);
+  require_positive_header(table);
+
+  std::vector<LayerKey> keys(table.rows.size());
+  for (std::size_t row = 0; row < keys.size(); ++row) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto value = key_columns[c].value;
+      // NaN heights: the whole bed, which has no volume where its top lies below y = 0.
+      const bool may_be_nan = value == &LayerKey::bottom || value == &LayerKey::top ||
+                              (value == &LayerKey::volume && std::isnan(keys[row].bottom));
+      keys[row].*value =
+          may_be_nan ? table.rows[row][columns[c]] : finite_cell(table, row, columns[c]);
+    }
+    require_sense(table, row, keys[row]);
+  }
+  refuse_overlapping_rows(table, keys);
+  return keys;
+}
+
+std::size_t find_column(const Table& table, const std::string& name, const std::string& remedy)
+{
+  const auto plain = without_unit(name);
+  if (!table.has_column(plain))
+    throw FormatError(fmt::format("{}: no column '{}'; {}", table.name, plain, remedy));
+  const auto column = table.column(plain);
+  const auto& found = table.columns[column];
+  if (found != name && !(table.made_by_hand() && found == plain))
+    throw FormatError(fmt::format("{}: column '{}' should be '{}'; units are not converted",
+                                  table.name, found, name));
+  return column;
+}
+
+std::optional<std::size_t> find_kept_column(const Table& table, const std::string& name,
+                                            const std::string& remedy)
+{
+  const auto plain = without_unit(name);
+  std::istringstream not_kept(header_or(table, "not kept", ""));
+  for (std::string word; not_kept >> word;)
+    if (word == plain && !table.has_column(plain)) return {};
+  return find_column(table, name, remedy);
+}
+
+const std::string& with_unit(const std::string& name, const std::vector<std::string>& written)
+{
+  return *std::ranges::find(written, name, without_unit);
+}
+
+double finite_cell(const Table& table, std::size_t row, std::size_t column)
+{
+  const double value = table.rows[row][column];
+  if (!std::isfinite(value))
+    throw FormatError(fmt::format("{}: row {}, column {}: {} is not a finite number", table.name,
+                                  row + 1, table.columns[column], format_number(value)));
+  return value;
+}
+
+double non_negative_cell(const Table& table, std::size_t row, std::size_t column, double round_off)
+{
+  const double value = finite_cell(table, row, column);
+  if (value < -round_off)
+    throw FormatError(fmt::format("{}: row {}, column {}: {} should not be negative", table.name,
+                                  row + 1, table.columns[column], format_number(value)));
+  return value;
 }
 
 }  // namespace grseg

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <variant>
 
 namespace grseg {
@@ -142,7 +141,7 @@ inline const Vec2* Layers::axis() const
   if (std::holds_alternative<Parallel>(kind_)) [[likely]]
     return nullptr;
   if (const auto* annuli = std::get_if<Annuli>(&kind_)) return &annuli->axis;
-  const auto& of_map = map()->axis();
+  const auto& of_map = map()->axis;
   return of_map ? &*of_map : nullptr;
 }
 

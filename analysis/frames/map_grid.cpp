@@ -87,8 +87,8 @@ template class GrainExtent<3>;
 
 double MapGrid::volume(std::size_t cell) const
 {
-  const auto& [first, second] = axes_;
-  if (plane_ != MapPlane::rz) return first.side * second.side * depth_;
+  const auto& [first, second] = axes;
+  if (plane != MapPlane::rz) return first.side * second.side * depth;
   const double rings = 2 * (first.first + static_cast<double>(column(cell))) + 1;
   return std::numbers::pi * first.side * first.side * rings * second.side;
 }
@@ -97,9 +97,9 @@ template <int D>
 std::size_t MapGrid::at(const Vector<D>& position) const
 {
   const double place =
-      plane_ == MapPlane::rz ? Vec2(position.template head<2>() - *axis_).norm() : position.x();
-  const double other = plane_ == MapPlane::xy ? position.y() : position[D - 1];
-  return axes_[1].at(other) * axes_[0].cells + axes_[0].at(place);
+      plane == MapPlane::rz ? Vec2(position.template head<2>() - *axis).norm() : position.x();
+  const double other = plane == MapPlane::xy ? position.y() : position[D - 1];
+  return axes[1].at(other) * axes[0].cells + axes[0].at(place);
 }
 
 template std::size_t MapGrid::at(const Vec2&) const;
@@ -107,14 +107,14 @@ template std::size_t MapGrid::at(const Vec3&) const;
 
 double MapGrid::thickness() const
 {
-  if (plane_ == MapPlane::xz) return depth_;
-  return axes_[plane_ == MapPlane::xy ? 1 : 0].side;
+  if (plane == MapPlane::xz) return depth;
+  return axes[plane == MapPlane::xy ? 1 : 0].side;
 }
 
 double MapGrid::bottom(std::size_t cell) const
 {
-  if (plane_ == MapPlane::xz) return 0;
-  return plane_ == MapPlane::xy ? axes_[1].edge(row(cell)) : axes_[0].edge(column(cell));
+  if (plane == MapPlane::xz) return 0;
+  return plane == MapPlane::xy ? axes[1].edge(row(cell)) : axes[0].edge(column(cell));
 }
 
 template <int D>

@@ -65,22 +65,15 @@ class GrainExtent {
 };
 
 /// The cells of a map, numbered along the first of its two axes, then along the second.
-class MapGrid {
- public:
-  /// `depth`: the length that is summed over, in the plane rz none. `axis`: x and y of that of rz.
-  MapGrid(MapPlane plane, const std::array<MapAxis, 2>& axes, double depth,
-          const std::optional<Vec2>& axis = std::nullopt)
-      : plane_(plane), axes_(axes), depth_(depth), axis_(axis)
-  {
-  }
+struct MapGrid {
+  MapPlane plane;
+  std::array<MapAxis, 2> axes;
+  double depth;                   // m, the length that is summed over; in the plane rz none
+  std::optional<Vec2> axis = {};  // x and y of that of rz
 
-  MapPlane plane() const { return plane_; }
-  const std::array<MapAxis, 2>& axes() const { return axes_; }
-  double depth() const { return depth_; }
-  const std::optional<Vec2>& axis() const { return axis_; }
-  std::size_t cells() const { return axes_[0].cells * axes_[1].cells; }
-  std::size_t column(std::size_t cell) const { return cell % axes_[0].cells; }
-  std::size_t row(std::size_t cell) const { return cell / axes_[0].cells; }
+  std::size_t cells() const { return axes[0].cells * axes[1].cells; }
+  std::size_t column(std::size_t cell) const { return cell % axes[0].cells; }
+  std::size_t row(std::size_t cell) const { return cell / axes[0].cells; }
   double volume(std::size_t cell) const;  // m^2 or m^3
 
   /// The cell that holds a position.
@@ -91,12 +84,6 @@ class MapGrid {
   double thickness() const;
   /// Where it begins there.
   double bottom(std::size_t cell) const;
-
- private:
-  MapPlane plane_;
-  std::array<MapAxis, 2> axes_;
-  double depth_;
-  std::optional<Vec2> axis_;
 };
 
 /// The cells of a map that hold all grains of a run, of sides no longer than `side` (m). RunError

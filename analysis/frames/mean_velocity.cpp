@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/mean_velocity.hpp"
 
-#include "analysis/frames/sums.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -145,10 +143,8 @@ Motion<D> MeanVelocity<D>::on_profile(double y) const
   const auto line = [y](const Point& a, const Point& b) -> Motion<D> {
     return a.motion + (b.motion - a.motion) * ((y - a.y) / (b.y - a.y));
   };
-  const auto above = static_cast<std::size_t>(
-      std::upper_bound(profile_.begin(), profile_.end(), y,
-                       [](double height, const Point& point) { return height < point.y; }) -
-      profile_.begin());
+  const auto above = static_cast<std::size_t>(std::ranges::upper_bound(profile_, y, {}, &Point::y) -
+                                              profile_.begin());
   // Neighbours' mean heights may lie close together, so the slope outside is taken over two bins.
   if (above == 0) return line(profile_[0], profile_[std::min<std::size_t>(2, n - 1)]);
   if (above == n) return line(profile_[n - 1], profile_[n - std::min<std::size_t>(3, n)]);
@@ -179,8 +175,7 @@ std::optional<MotionOfOthers<D>> MeanVelocity<D>::on_profile_of_others(
   };
   if (n == 1) return others(0).mean(slope_[0]);
   // The first point above y.
-  auto above =
-      static_cast<std::size_t>(std::lower_bound(full_.begin(), full_.end(), own) - full_.begin());
+  auto above = static_cast<std::size_t>(std::ranges::lower_bound(full_, own) - full_.begin());
   if (above < n && full_[above] == own && others(above).height() <= y) ++above;
   const auto ends = above == 0
                         ? std::pair<std::size_t, std::size_t>(0, std::min<std::size_t>(2, n - 1))

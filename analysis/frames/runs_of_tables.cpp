@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/runs_of_tables.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
@@ -11,11 +11,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
-#include <optional>
 #include <sstream>
-#include <string>
 
 namespace grseg {
 namespace {
@@ -24,8 +21,7 @@ using Rows = std::vector<std::size_t>;
 
 bool is_of_key(const std::string& name)
 {
-  return std::any_of(key_columns.begin(), key_columns.end(),
-                     [&](const auto& key) { return name == key.name; });
+  return std::ranges::any_of(key_columns, [&](const auto& key) { return name == key.name; });
 }
 
 /// Columns that both tables have beside the key, as pairs of their numbers.
@@ -57,19 +53,24 @@ bool agree(const std::vector<double>& a, const std::vector<double>& b,
   return largest <= part * scale;
 }
 
-}  // namespace
-
+/// Within so many seconds times count as equal: tables may be kept with fewer digits.
 double round_off_of(const Span& window)
 {
   return 1e-6 * (window.second - window.first);
 }
 
+/// True where they have more than round-off in common.
 bool overlap(const Span& a, const Span& b)
 {
   const double common = std::min(a.second, b.second) - std::max(a.first, b.first);
   return common > std::min(round_off_of(a), round_off_of(b));
 }
 
+/// The numbers of the rows of each window of a table.
+struct TableWindows {
+  const Table* table;
+  std::map<Span, Rows> rows;
+};
 TableWindows windows_of(const Table& table)
 {
   TableWindows windows{&table, {}};
@@ -79,6 +80,8 @@ TableWindows windows_of(const Table& table)
   return windows;
 }
 
+/// True where rows of two tables hold the same numbers to the last bit beside their key, and more than
+/// layers without stress.
 bool same_bits(const Table& a, const Rows& rows_a, const Table& b, const Rows& rows_b)
 {
   if (rows_a.size() != rows_b.size()) return false;
@@ -92,6 +95,8 @@ bool same_bits(const Table& a, const Rows& rows_a, const Table& b, const Rows& r
   return numbers > 2;  // the two areas may be the same in layers that bear no stress
 }
 
+/// True where rows hold the same areas or volumes of grains and the same stress, up to a millionth, which
+/// is what single precision keeps: nothing has moved between them.
 bool nothing_moved(const Table& a, const Rows& rows_a, const Table& b, const Rows& rows_b)
 {
   if (rows_a.size() != rows_b.size()) return false;
@@ -107,12 +112,14 @@ bool nothing_moved(const Table& a, const Rows& rows_a, const Table& b, const Row
   return true;
 }
 
+}  // namespace
+
 WindowLine put_in_line(const std::vector<TableWindow>& windows)
 {
   std::vector<std::size_t> order(windows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return windows[a].span < windows[b].span; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return windows[a].span < windows[b].span; });
   std::map<const Table*, TableWindows> rows;
   for (const auto& window : windows)
     if (!rows.contains(window.table)) rows.emplace(window.table, windows_of(*window.table));
@@ -305,7 +312,7 @@ RunsOfTables find_runs(const std::vector<Table>& tables)
   for (const auto table : first)
     runs.run.push_back(numbers.emplace(table, numbers.size()).first->second);
   for (std::size_t k = 0; k < tables.size(); ++k)
-    if (std::any_of(untold.begin(), untold.end(), [&](const auto& pair) {
+    if (std::ranges::any_of(untold, [&](const auto& pair) {
           return (pair.first == k || pair.second == k) &&
                  runs.run[pair.first] != runs.run[pair.second];
         }))

@@ -4,7 +4,6 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/sums.hpp"
 #include "formats/cli/progress.hpp"
-#include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
@@ -35,16 +34,16 @@ Header bins_lines(const Layers& layers)
 {
   const auto* axis = layers.axis();
   const auto* map = layers.map();
-  std::string bins = map ? word_of(map->plane(), map_planes) : axis ? "radius" : "";
+  std::string bins = map ? word_of(map->plane, map_planes) : axis ? "radius" : "";
   if (axis) bins += fmt::format(" {} {}", format_number(axis->x()), format_number(axis->y()));
   Header lines;
   if (!bins.empty()) lines.emplace_back("bins", bins);
   if (!map) return lines;
-  const auto& [first, second] = map->axes();
+  const auto& [first, second] = map->axes;
   lines.emplace_back("cells", fmt::format("{} {}", first.cells, second.cells));
   lines.emplace_back("cell",
                      fmt::format("{} {}", format_number(first.side), format_number(second.side)));
-  if (map->plane() == MapPlane::xz) lines.emplace_back("height", format_number(map->depth()));
+  if (map->plane == MapPlane::xz) lines.emplace_back("height", format_number(map->depth));
   return lines;
 }
 
@@ -71,8 +70,8 @@ void add_lines_of_run(Header& header, const FrameLoop& loop, const Header& setti
   add("large_diameter", run.large_diameter());
   if (names_species(species)) header.emplace_back("species", species_text(species));
   for (const char* key : {"density", "friction", "restitution"}) {
-    const bool set_by_tool = std::any_of(settings.begin(), settings.end(),
-                                         [&](const HeaderLine& line) { return line.first == key; });
+    const bool set_by_tool =
+        std::ranges::any_of(settings, [&](const HeaderLine& line) { return line.first == key; });
     if (!set_by_tool) header.emplace_back(key, number_or_unknown(run.parameters(), key));
   }
   with_dimension(loop.dimension(), [&](auto d) {
@@ -168,7 +167,7 @@ Table empty_table(const FrameLoop& loop, const std::string& command, const Heade
   header.emplace_back("origin", origin.empty() ? "unknown" : printable(origin));
   add_all(header, settings);
   if (const auto* map = layers.map()) {
-    const auto& axes = map->axes();
+    const auto& axes = map->axes;
     table.columns = map_key_columns({std::string(1, axes[0].name), std::string(1, axes[1].name)},
                                     loop.dimension());
     add_all(table.columns, columns);
@@ -188,7 +187,7 @@ std::vector<double> table_row(const FrameLoop& loop, const Window& window, std::
     return with_key({window.begin, window.end, layers.bottom(layer), layers.top(layer), frames,
                      layers.volume(layer)},
                     values);
-  const auto& [first, second] = map->axes();
+  const auto& [first, second] = map->axes;
   const std::size_t i = map->column(layer), j = map->row(layer);
   std::vector<double> row{window.begin,   window.end,         first.edge(i), first.edge(i + 1),
                           second.edge(j), second.edge(j + 1), frames,        map->volume(layer)};

@@ -72,7 +72,7 @@ struct Grid {
 Step empty_part(const RunTimes& run, const Grid& grid, Step window)
 {
   const Step begin = grid.begin_of(window), end = begin + grid.length;
-  auto next = std::upper_bound(run.steps.begin(), run.steps.end(), begin);
+  auto next = std::ranges::upper_bound(run.steps, begin);
   Step filled = next == run.steps.begin() ? run.steps.front() : *(next - 1) + grid.longest,
        empty = 0;
   for (; next != run.steps.end() && *next < end; ++next) {
@@ -102,8 +102,8 @@ std::string typed(Step steps, double step)
                                   const Grid& grid)
 {
   const auto seconds = [&](Step steps) { return static_cast<double>(steps) * run.step; };
-  const bool any = std::any_of(run.steps.begin(), run.steps.end(),
-                               [&](Step k) { return k >= grid.begin && k < grid.end; });
+  const bool any =
+      std::ranges::any_of(run.steps, [&](Step k) { return k >= grid.begin && k < grid.end; });
   if (!any)
     throw RunError(fmt::format(
         "no frame lies between --begin and --end; the run goes from {:.6g} s to {:.6g} s",
@@ -142,13 +142,6 @@ Grid grid_of(const RunTimes& run, const WindowSettings& settings)
   return grid;
 }
 
-/// As it was given where that is a whole number of steps.
-double length_of(const RunTimes& run, const WindowSettings& settings, const Grid& grid)
-{
-  const double exact = static_cast<double>(grid.length) * run.step;
-  return std::abs(exact - settings.length) < 1e-9 * exact ? settings.length : exact;
-}
-
 }  // namespace
 
 po::typed_value<std::string>* window_option(WindowSettings& settings)
@@ -182,11 +175,10 @@ RunTimes times_of(const TrajectoryReader& run)
 std::int64_t longest_interval(const RunTimes& run)
 {
   auto gaps = gaps_of(run);
-  std::sort(gaps.begin(), gaps.end(), std::greater<>());
+  std::ranges::sort(gaps, std::greater<>());
   const auto interval = std::llround(run.frame_interval / run.step);
   if (interval > 0) {
-    const auto found =
-        std::find_if(gaps.begin(), gaps.end(), [&](Step g) { return g <= interval; });
+    const auto found = std::ranges::find_if(gaps, [&](Step g) { return g <= interval; });
     return found != gaps.end() && 2 * *found >= interval ? *found : interval;
   }
   for (std::size_t k = 0; k + 2 < gaps.size(); ++k)
@@ -201,11 +193,13 @@ Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings)
   const bool as_given = settings.begin && whole_steps(*settings.begin, run.step, "") == grid.begin;
   const double origin = as_given ? *settings.begin : static_cast<double>(grid.begin) * run.step;
 
-  Windows windows{length_of(run, settings, grid), {}};
+  const double exact = static_cast<double>(grid.length) * run.step;
+  // As it was given where that is a whole number of steps.
+  Windows windows{std::abs(exact - settings.length) < 1e-9 * exact ? settings.length : exact, {}};
   Step last = -1;
   bool is_filled = false;
-  const auto first = static_cast<std::size_t>(
-      std::lower_bound(run.steps.begin(), run.steps.end(), grid.begin) - run.steps.begin());
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(run.steps, grid.begin) - run.steps.begin());
   for (auto k = first; k < run.steps.size(); k += static_cast<std::size_t>(settings.stride)) {
     const Step n = (run.steps[k] - grid.begin) / grid.length;
     if (grid.begin_of(n + 1) > grid.end) break;

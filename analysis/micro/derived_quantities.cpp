@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/derived_quantities.hpp"
 
-#include "analysis/frames/sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
 #include <fmt/format.h>

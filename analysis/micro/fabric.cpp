@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/fabric.hpp"
 
-#include "analysis/frames/sums.hpp"
-
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <array>

@@ -2,7 +2,6 @@
 #include "analysis/micro/force_distribution.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "analysis/frames/sums.hpp"
 
 #include <fmt/format.h>
 
@@ -81,13 +80,6 @@ double MeanNormalForce<D>::between_grains(std::size_t layer) const
 }
 
 template <int D>
-ForceDistribution<D>::ForceDistribution(const Layers& layers, const MeanNormalForce<D>& mean,
-                                        ForceUnit unit, double width)
-    : layers_(layers), mean_(mean), unit_(unit), width_(width)
-{
-}
-
-template <int D>
 double ForceDistribution<D>::edge(std::size_t bin) const
 {
   return bin == bins ? std::numeric_limits<double>::infinity() : static_cast<double>(bin) * width_;
@@ -148,12 +140,6 @@ std::vector<std::vector<double>> ForceDistribution<D>::rows(const Counts& counts
     rows.push_back(values_of(cells(bin)));
   }
   return rows;
-}
-
-template <int D>
-std::vector<std::vector<double>> ForceDistribution<D>::rows(std::size_t layer) const
-{
-  return rows(counts_[layer]);
 }
 
 template <int D>

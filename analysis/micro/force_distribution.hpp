@@ -55,7 +55,10 @@ class ForceDistribution {
 
   /// `width` of the bins in units of x, i.e. of the mean force.
   ForceDistribution(const Layers& layers, const MeanNormalForce<D>& mean, ForceUnit unit,
-                    double width);
+                    double width)
+      : layers_(layers), mean_(mean), unit_(unit), width_(width)
+  {
+  }
 
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const ForceDistribution& others);
@@ -67,7 +70,7 @@ class ForceDistribution {
   static std::vector<std::string> columns();
   /// One row per bin, of a layer and of the whole bed, where each contact counts in units of its
   /// own layer.
-  std::vector<std::vector<double>> rows(std::size_t layer) const;
+  std::vector<std::vector<double>> rows(std::size_t layer) const { return rows(counts_[layer]); }
   std::vector<std::vector<double>> bed_rows() const;
 
  private:

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/sums_table.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/sums_table.hpp"
 #include "formats/cli/output.hpp"
-#include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
@@ -17,10 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
-#include <string>
 
 namespace grseg {
 namespace {

@@ -13,20 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace grseg {
 namespace {
 
 // Beyond it the errors of both coefficients are over three times those of one alone.
 constexpr double collinear = 0.95;
-
-Eigen::Index index_of(std::size_t n)
-{
-  return static_cast<Eigen::Index>(n);
-}
 
 /// A number and what each window's noise adds to it.
 struct Linear {
@@ -77,7 +70,7 @@ Eigen::Vector2d regressors(const ClosurePoint& point)
 class Regressions {
  public:
   explicit Regressions(const ClosureData& data)
-      : data_(data), windows_(index_of(number_of_windows(data.runs)))
+      : data_(data), windows_(index(number_of_windows(data.runs)))
   {
     for (const auto& point : data.points) {
       const Eigen::Vector2d x = regressors(point), z = instruments(point);
@@ -120,8 +113,8 @@ class Regressions {
           point.weight * (of(point) - x.dot(value)) * (inverse_ * instruments(point));
       for (Eigen::Index k = 0; k < 2; ++k) {
         auto& coefficient = both[static_cast<std::size_t>(k)];
-        coefficient.influence[index_of(point.window)] += influence[k];
-        coefficient.weight[index_of(point.window)] += point.weight * x[k] * x[k];
+        coefficient.influence[index(point.window)] += influence[k];
+        coefficient.weight[index(point.window)] += point.weight * x[k] * x[k];
       }
     }
     return both;
@@ -136,17 +129,15 @@ class Regressions {
     for (const auto& point : data_.points)
       if (weight(point) > 0 && std::isfinite(value(point))) used.push_back(&point);
     const auto list = [&](const auto& of) {
-      Eigen::VectorXd all(index_of(used.size()));
-      for (std::size_t k = 0; k < used.size(); ++k) all[index_of(k)] = of(*used[k]);
-      return all;
+      return numbers_of(used, [&](const ClosurePoint* point) { return of(*point); });
     };
     if (used.empty()) return none(no_number);
     const Eigen::VectorXd values = list(value), weights = list(weight);
     const Eigen::VectorXd noise =
-        composition_noise(list([](const ClosurePoint& p) { return p.phi_large; }), values, weights);
+        composition_noise(numbers_of(used, &ClosurePoint::phi_large), values, weights);
     auto all = none(weights.dot(values) / weights.sum());
     for (std::size_t k = 0; k < used.size(); ++k) {
-      const auto point = index_of(k), window = index_of(used[k]->window);
+      const auto point = index(k), window = index(used[k]->window);
       all.influence[window] += weights[point] * noise[point] / weights.sum();
       all.weight[window] += weights[point];
     }
@@ -183,8 +174,7 @@ class Report {
   {
     if (bootstrap_.count() == 0 || !std::isfinite(of.value)) return {of.value};
     const auto how = dependence_of(of, bootstrap_.runs());
-    const auto interval = bootstrap_.interval(of.value, sampled(of, how), how);
-    return {of.value, interval.low, interval.high};
+    return bootstrap_.estimate(of.value, sampled(of, how), how);
   }
   void add(const std::string& name, const Linear& of)
   {
@@ -243,21 +233,18 @@ void add_collinearity(Report& report, const Regressions& regressions,
 /// What the kinetic terms and inertia add to B and d, and their sum.
 std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
 {
-  struct Part {
-    const char* name;
-    double (*of)(const ClosurePoint&);
-  };
-  constexpr Part parts[] = {
-      {"", [](const ClosurePoint& p) { return p.kinetic_push + p.kinetic_spread - p.inertia; }},
-      {"_of_kinetic_push", [](const ClosurePoint& p) { return p.kinetic_push; }},
-      {"_of_kinetic_spread", [](const ClosurePoint& p) { return p.kinetic_spread; }},
-      {"_of_inertia", [](const ClosurePoint& p) { return -p.inertia; }}};
-  for (const auto& [name, of] : parts) {
-    const auto tau = regressions.on_both(of);
+  const auto add = [&](const char* name, double (*of)(const ClosurePoint&)) {
+    auto tau = regressions.on_both(of);
     report.add(fmt::format("tau_X{}", name), tau[0]);
     report.add(fmt::format("tau_G{}[m^2/s^2]", name), tau[1]);
-  }
-  return regressions.on_both(parts[0].of);
+    return tau;
+  };
+  auto whole =
+      add("", [](const ClosurePoint& p) { return p.kinetic_push + p.kinetic_spread - p.inertia; });
+  add("_of_kinetic_push", [](const ClosurePoint& p) { return p.kinetic_push; });
+  add("_of_kinetic_spread", [](const ClosurePoint& p) { return p.kinetic_spread; });
+  add("_of_inertia", [](const ClosurePoint& p) { return -p.inertia; });
+  return whole;
 }
 
 /// B of the rule number `rule`, by sums.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/closure_points.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/frames/sums.hpp"
-#include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/core/errors.hpp"
@@ -93,14 +91,28 @@ struct LayerMotion {
   LayerKey key;
   double small = 0, large = 0;  // m^2 or m^3
   double phi = no_number, flux = no_number, gradient = no_number, diffusivity = no_number;
-  double mass = no_number, flux_small = no_number, flux_large = no_number;  // kg, J
-  double gain_small = no_number, gain_large = no_number;                    // N
+  double mass_small = no_number, mass_large = no_number;  // kg
+  double flux_small = no_number, flux_large = no_number;  // J
+  double gain_small = no_number, gain_large = no_number;  // N
 
   double solid() const { return (small + large) / key.volume; }
-  double density() const { return mass / key.volume; }
+  double density() const { return (mass_small + mass_large) / key.volume; }
   double k_large() const { return flux_large / key.volume; }
   double k_total() const { return (flux_small + flux_large) / key.volume; }
 };
+
+struct MotionColumn {
+  const char* name;
+  double LayerMotion::*value;
+};
+constexpr MotionColumn motion_columns[] = {{"phi_L", &LayerMotion::phi},
+                                           {"q_L[m/s]", &LayerMotion::flux},
+                                           {"dphi_dy[1/m]", &LayerMotion::gradient},
+                                           {"D[m^2/s]", &LayerMotion::diffusivity}};
+constexpr MotionColumn kinetic_columns[] = {
+    {"mass_S[kg]", &LayerMotion::mass_small},  {"mass_L[kg]", &LayerMotion::mass_large},
+    {"mvv_S_yy[J]", &LayerMotion::flux_small}, {"mvv_L_yy[J]", &LayerMotion::flux_large},
+    {"gain_S_y[N]", &LayerMotion::gain_small}, {"gain_L_y[N]", &LayerMotion::gain_large}};
 
 /// The layers of a table, in order, without the rows of the whole bed.
 std::vector<LayerMotion> motions_of(const Table& table, bool& has_kinetic)
@@ -110,34 +122,23 @@ std::vector<LayerMotion> motions_of(const Table& table, bool& has_kinetic)
   const auto contents = content_columns(species_of(table), dimension_of(table));
   const auto column = [&](const std::string& name) { return find_column(table, name, remedy); };
   const std::size_t small = column(contents[0]), large = column(contents[1]);
-  const std::size_t phi = column("phi_L"), flux = column("q_L[m/s]");
-  const std::size_t gradient = column("dphi_dy[1/m]"), diffusivity = column("D[m^2/s]");
-  std::vector<std::size_t> kinetic;
-  for (const char* name :
-       {"mass_S[kg]", "mass_L[kg]", "mvv_S_yy[J]", "mvv_L_yy[J]", "gain_S_y[N]", "gain_L_y[N]"})
-    if (table.has_column(without_unit(name))) kinetic.push_back(column(name));
-  has_kinetic = has_kinetic && kinetic.size() == 6;
+  const bool kinetic = std::ranges::all_of(kinetic_columns, [&](const MotionColumn& own) {
+    return table.has_column(without_unit(own.name));
+  });
+  has_kinetic = has_kinetic && kinetic;
+  std::vector<std::pair<double LayerMotion::*, std::size_t>> places;
+  for (const auto& [name, value] : motion_columns) places.emplace_back(value, column(name));
+  for (const auto& [name, value] : kinetic_columns)
+    if (kinetic) places.emplace_back(value, column(name));
 
   std::vector<LayerMotion> motions;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (std::isnan(keys[row].bottom)) continue;
-    const auto& cells = table.rows[row];
-    LayerMotion motion;
+    auto& motion = motions.emplace_back();
     motion.key = keys[row];
     motion.small = non_negative_cell(table, row, small);
     motion.large = non_negative_cell(table, row, large);
-    motion.phi = cells[phi];
-    motion.flux = cells[flux];
-    motion.gradient = cells[gradient];
-    motion.diffusivity = cells[diffusivity];
-    if (kinetic.size() == 6) {
-      motion.mass = cells[kinetic[0]] + cells[kinetic[1]];
-      motion.flux_small = cells[kinetic[2]];
-      motion.flux_large = cells[kinetic[3]];
-      motion.gain_small = cells[kinetic[4]];
-      motion.gain_large = cells[kinetic[5]];
-    }
-    motions.push_back(motion);
+    for (const auto& [value, place] : places) motion.*value = table.rows[row][place];
   }
   return motions;
 }
@@ -305,7 +306,7 @@ std::optional<ClosurePoint> RunReader::point_of(const LayerMotion& motion,
   const double lost = -slope(neighbour(stresses, key, -1), neighbour(stresses, key, 1),
                              [](const Stress& s) { return s.total; });
   point.weight_above = lost / (motion.density() * fall);
-  const bool lacks_neighbour = !std::isnan(motion.mass) && std::isnan(point.kinetic_push);
+  const bool lacks_neighbour = !std::isnan(motion.density()) && std::isnan(point.kinetic_push);
   const bool lacks_before = std::isnan(point.driving_before + point.gradient_before);
   if (lacks_neighbour || (before_ && lacks_before) || !is_usable(point)) return {};
   return point;

@@ -17,12 +17,6 @@ namespace grseg {
 struct NamedNumbers {
   std::vector<std::pair<std::string, Estimate>> numbers;
   std::vector<std::string> remarks;
-
-  void append(const NamedNumbers& others)
-  {
-    numbers.insert(numbers.end(), others.numbers.begin(), others.numbers.end());
-    remarks.insert(remarks.end(), others.remarks.begin(), others.remarks.end());
-  }
 };
 
 /// Rows of quantity, value, low and high under the header of a table, which also holds the remarks.

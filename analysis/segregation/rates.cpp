@@ -3,6 +3,7 @@
 
 #include "analysis/frames/sums.hpp"
 #include "analysis/segregation/rates.hpp"
+#include "analysis/statistics/dependence.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 #include "analysis/statistics/least_squares.hpp"
 #include "formats/core/errors.hpp"
@@ -14,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 #include <utility>
 
 namespace grseg {
@@ -22,25 +22,16 @@ namespace {
 
 using Moment = BedState;
 
-Eigen::VectorXd series(const std::vector<Moment>& moments, double Moment::*place)
-{
-  Eigen::VectorXd values(static_cast<Eigen::Index>(moments.size()));
-  for (Eigen::Index k = 0; k < values.size(); ++k)
-    values[k] = moments[static_cast<std::size_t>(k)].*place;
-  return values;
-}
-
 /// The exponential approach of y_L, fitted against time or against strain.
 void add_approach(const std::vector<Moment>& moments, bool against_time, NamedNumbers& summary)
 {
-  const auto x = series(moments, against_time ? &Moment::time : &Moment::strain);
-  const auto y = series(moments, &Moment::large);
+  const auto x = numbers_of(moments, against_time ? &Moment::time : &Moment::strain);
+  const auto y = numbers_of(moments, &Moment::large);
   const auto fit = fit_approach(x, y);
-  const char* unit = against_time ? "[s]" : "_strain";
-  const char* kind = against_time ? "" : "_strain";
-  summary.numbers.emplace_back(fmt::format("y_L_start{}[m]", kind), fit.start);
-  summary.numbers.emplace_back(fmt::format("y_L_end{}[m]", kind), fit.end);
-  summary.numbers.emplace_back(fmt::format("tau{}", unit), fit.scale);
+  const std::string unit = against_time ? "[s]" : "_strain", kind = against_time ? "" : "_strain";
+  add_all(summary.numbers, {{"y_L_start" + kind + "[m]", fit.start},
+                            {"y_L_end" + kind + "[m]", fit.end},
+                            {"tau" + unit, fit.scale}});
   for (const auto& [name, part] : {std::pair{"t50", 0.5}, {"t90", 0.9}}) {
     const auto when = time_to(part, fit, x, y);
     summary.numbers.emplace_back(fmt::format("{}{}", name, unit), when);
@@ -69,12 +60,12 @@ std::vector<WindowMean> window_means(const std::vector<Moment>& moments,
   for (const auto count : windows) {
     const std::vector<Moment> own(first, first + static_cast<std::ptrdiff_t>(count));
     first += static_cast<std::ptrdiff_t>(count);
-    const auto mixing = series(own, &Moment::mixing);
+    const auto mixing = numbers_of(own, &Moment::mixing);
     const Eigen::VectorXd excess = mixing.array() - mixing.mean();
     const auto frames = static_cast<double>(mixing.size());
     const double error = standard_error(excess / frames, 1).error;
     // NaN where all frames depend on each other; then they count as one value.
-    means.push_back({series(own, &Moment::time).mean(), series(own, &Moment::strain).mean(),
+    means.push_back({numbers_of(own, &Moment::time).mean(), numbers_of(own, &Moment::strain).mean(),
                      mixing.mean(),
                      std::isnan(error) ? std::sqrt(excess.squaredNorm() / frames) : error});
   }
@@ -90,18 +81,14 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
                 NamedNumbers& summary)
 {
   const auto means = window_means(moments, windows);
-  const auto most = std::max_element(
-      means.begin(), means.end(), [](const auto& a, const auto& b) { return a.mixing < b.mixing; });
-  summary.numbers.emplace_back("mixing_start", about(means.front()));
-  summary.numbers.emplace_back("mixing_most", about(*most));
-  summary.numbers.emplace_back("mixing_end", about(means.back()));
+  const auto most = std::ranges::max_element(
+      means, [](const auto& a, const auto& b) { return a.mixing < b.mixing; });
   Estimate time, strain;
-  const bool known = most + 1 != means.end() && most != means.begin();
-  if (known) {
+  if (most + 1 != means.end() && most != means.begin()) {
     const auto alike = [&](const WindowMean& mean) {
       return most->mixing - mean.mixing <= 1.96 * std::hypot(most->error, mean.error);
     };
-    const auto first = std::find_if(means.begin(), means.end(), alike);
+    const auto first = std::ranges::find_if(means, alike);
     const auto last = std::find_if(means.rbegin(), means.rend(), alike);
     const auto from = [&](double x, double WindowMean::*place, double origin) {
       return Estimate{x - origin, (*first).*place - origin, (*last).*place - origin};
@@ -115,8 +102,11 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
                     : most == means.begin() ? "first"
                                             : "last"));
   }
-  summary.numbers.emplace_back("t_mixing[s]", time);
-  summary.numbers.emplace_back("t_mixing_strain", strain);
+  add_all(summary.numbers, {{"mixing_start", about(means.front())},
+                            {"mixing_most", about(*most)},
+                            {"mixing_end", about(means.back())},
+                            {"t_mixing[s]", time},
+                            {"t_mixing_strain", strain}});
 }
 
 }  // namespace
@@ -176,13 +166,6 @@ class Regression {
   Eigen::MatrixXd influence;  // row: window
 };
 
-Eigen::VectorXd numbers(std::initializer_list<double> list)
-{
-  Eigen::VectorXd vector(static_cast<Eigen::Index>(list.size()));
-  std::copy(list.begin(), list.end(), vector.begin());
-  return vector;
-}
-
 /// phi_L phi_S.
 double both(const RatePoint& point)
 {
@@ -194,7 +177,8 @@ Regression mean(const std::vector<RatePoint>& points, std::size_t species,
                 double LayerSegregation::*place)
 {
   return {points, 1, [&](const RatePoint& point) -> Equation {
-            return {point.layer.displacements[species], numbers({1}), point.layer.value.*place};
+            return {point.layer.displacements[species], Eigen::VectorXd{{1.0}},
+                    point.layer.value.*place};
           }};
 }
 
@@ -247,19 +231,20 @@ NamedNumbers segregation_rates(const std::vector<RatePoint>& points)
 {
   using Values = LayerSegregation;
   const Regression velocity(points, 1, [](const RatePoint& p) -> Equation {
-    return {p.layer.mass, numbers({both(p)}), advected(p.layer.value)};
+    return {p.layer.mass, Eigen::VectorXd{{both(p)}}, advected(p.layer.value)};
   });
   const Regression scaled(points, 1, [](const RatePoint& p) -> Equation {
     const double unit = std::abs(p.layer.flow.du_dy) * p.diameter;
-    return {p.layer.mass, numbers({both(p)}), advected(p.layer.value) / unit};
+    return {p.layer.mass, Eigen::VectorXd{{both(p)}}, advected(p.layer.value) / unit};
   });
   // A point whose gradient is not known takes part in neither S nor D.
   const Regression diffusivity(points, 1, [](const RatePoint& p) -> Equation {
     const double weight = std::isfinite(advected(p.layer.value)) ? p.layer.mass : 0;
-    return {weight * both(p) * both(p), numbers({1}), p.layer.value.D};
+    return {weight * both(p) * both(p), Eigen::VectorXd{{1.0}}, p.layer.value.D};
   });
   const Regression flux(points, 2, [](const RatePoint& p) -> Equation {
-    return {p.layer.mass, numbers({both(p), -p.layer.value.gradient}), p.layer.value.q_large};
+    return {p.layer.mass, Eigen::VectorXd{{both(p), -p.layer.value.gradient}},
+            p.layer.value.q_large};
   });
   double bed = 0;
   for (const auto& point : points) bed += point.bed / static_cast<double>(points.size());
@@ -371,7 +356,10 @@ template <int D>
 NamedNumbers SegregationTable<D>::summary(const RateFilter& filter) const
 {
   auto summary = segregation_times(series_.moments(), windows_);
-  summary.append(segregation_rates(filtered(points_, filter, {small_diameter_, large_diameter_})));
+  const auto rates =
+      segregation_rates(filtered(points_, filter, {small_diameter_, large_diameter_}));
+  add_all(summary.numbers, rates.numbers);
+  add_all(summary.remarks, rates.remarks);
   return summary;
 }
 

@@ -4,7 +4,6 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/segregation/flux.hpp"
 #include "analysis/segregation/named_numbers.hpp"
-#include "analysis/segregation/series.hpp"
 
 #include <string>
 #include <vector>

@@ -116,11 +116,11 @@ const Eigen::MatrixXd& Bootstrap::samples(const Dependence& dependence) const
   return runs_.size() > 1 ? whole_runs() : blocks(dependence.block);
 }
 
-Interval Bootstrap::interval(double estimate, const Eigen::VectorXd& samples,
+Estimate Bootstrap::estimate(double value, const Eigen::VectorXd& samples,
                              const Dependence& dependence) const
 {
-  return runs_.size() > 1 ? over_runs(estimate, samples, dependence)
-                          : over_windows(estimate, samples, dependence);
+  return (runs_.size() > 1 ? run_error(samples, dependence) : window_error(samples, dependence))
+      .around(value);
 }
 
 double Bootstrap::window_degrees(const Dependence& dependence) const
@@ -138,23 +138,11 @@ StandardError Bootstrap::window_error(const Eigen::VectorXd& samples,
           degrees};
 }
 
-Interval Bootstrap::over_windows(double estimate, const Eigen::VectorXd& samples,
-                                 const Dependence& dependence) const
-{
-  return window_error(samples, dependence).interval_around(estimate);
-}
-
 StandardError Bootstrap::run_error(const Eigen::VectorXd& samples,
                                    const Dependence& dependence) const
 {
   const double degrees = dependence.effective_runs - 1;
   return {std::sqrt(variance(samples) * dependence.effective_runs / degrees), degrees};
-}
-
-Interval Bootstrap::over_runs(double estimate, const Eigen::VectorXd& samples,
-                              const Dependence& dependence) const
-{
-  return run_error(samples, dependence).interval_around(estimate);
 }
 
 std::string Bootstrap::doubt(const Dependence& dependence) const

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <map>
 #include <string>
-#include <vector>
 
 /// Error bars for means over correlated windows: moving blocks of consecutive windows (Kuensch
 /// 1989) and, where there are several, whole runs are drawn with replacement. What is drawn is how
@@ -34,22 +33,18 @@ class Bootstrap {
   /// Of several runs the samples and the interval of runs, drawn as one population, of a single one
   /// those of windows: for the closure of segregation. grseg-fit tells mixtures apart (RunErrors).
   const Eigen::MatrixXd& samples(const Dependence& dependence) const;
-  Interval interval(double estimate, const Eigen::VectorXd& samples,
+  Estimate estimate(double value, const Eigen::VectorXd& samples,
                     const Dependence& dependence) const;
 
-  /// What the windows alone tell: estimate -+ t sqrt(V), with V the variance of the statistic over
+  /// What the windows alone tell: value -+ t sqrt(V), with V the variance of the statistic over
   /// samples of blocks(), times m/(m - R) for the means of R runs that were fitted (m = effective
   /// windows/block), over the share of the variance that blocks of b windows of an AR(1) series
   /// keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's quantile of m - R
   /// degrees of freedom. NaN below least_degrees. With several runs it holds only if runs do not
   /// differ.
-  Interval over_windows(double estimate, const Eigen::VectorXd& samples,
-                        const Dependence& dependence) const;
   StandardError window_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
   /// What several runs tell: the same with samples of whole_runs(), m = effective runs and m - 1
   /// degrees of freedom. Each run is one observation, whatever goes on inside it.
-  Interval over_runs(double estimate, const Eigen::VectorXd& samples,
-                     const Dependence& dependence) const;
   StandardError run_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
 
   /// A sentence where an interval may say more than it knows, or far less: too few windows for

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/confidence.hpp"
 
-#include "analysis/frames/sums.hpp"
 #include "analysis/statistics/dependence.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -24,36 +23,26 @@ Estimate StandardError::around(double value) const
   return {value, value - reach(), value + reach()};
 }
 
-Interval StandardError::interval_around(double value) const
-{
-  const auto estimate = around(value);
-  return {estimate.low, estimate.high};
-}
+constexpr StandardError unknown{no_number, 0};
 
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted)
 {
   const auto n = static_cast<double>(influence.size());
-  if (n < 2 || !influence.allFinite()) return {no_number, 0};
+  if (n < 2 || !influence.allFinite()) return unknown;
   const double time = autocorrelation_time(influence, {static_cast<std::size_t>(influence.size())});
   const double degrees = n / time - fitted;
-  if (!(degrees >= least_degrees)) return {no_number, 0};
+  if (!(degrees >= least_degrees)) return unknown;
   return {std::sqrt(influence.squaredNorm() * time * (degrees + fitted) / degrees), degrees};
 }
 
 StandardError error_about_trend(const Eigen::VectorXd& influence)
 {
   const auto n = influence.size();
-  if (n < 3 || !influence.allFinite()) return {no_number, 0};
+  if (n < 3 || !influence.allFinite()) return unknown;
   const auto differences = static_cast<double>(n - 1);
   const double squares = (influence.tail(n - 1) - influence.head(n - 1)).squaredNorm() / 2;
   return {std::sqrt(static_cast<double>(n) / differences * squares), 2 * differences / 3};
 }
-
-namespace {
-
-constexpr StandardError unknown{no_number, 0};
-
-}  // namespace
 
 StandardError scatter_of_runs(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight)
 {
@@ -89,13 +78,9 @@ StandardError scatter_of_values(const Eigen::VectorXd& values)
 MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers)
 {
   const auto count = static_cast<double>(numbers.size());
-  Eigen::VectorXd values(static_cast<Eigen::Index>(numbers.size()));
+  const auto values = numbers_of(numbers, &Measured::value);
   std::vector<StandardError> parts;
-  parts.reserve(numbers.size());
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    values[static_cast<Eigen::Index>(k)] = numbers[k].value;
-    parts.push_back({numbers[k].error.error / count, numbers[k].error.degrees});
-  }
+  for (const auto& [value, error] : numbers) parts.push_back({error.error / count, error.degrees});
   return {values.mean(), added(parts), scatter_of_values(values)};
 }
 

@@ -15,11 +15,6 @@ struct Estimate {
   double high = no_number;
 };
 
-/// A 95 % interval alone.
-struct Interval {
-  double low, high;
-};
-
 /// Degrees of freedom below which there is no interval.
 inline constexpr double least_degrees = 0.5;
 
@@ -31,7 +26,6 @@ struct StandardError {
   double reach() const;
   /// value -+ reach(); of a value that is not finite there is no interval.
   Estimate around(double value) const;
-  Interval interval_around(double value) const;
 };
 
 /// A number with its standard error; NaN and 0 degrees where it is not known.
@@ -40,7 +34,6 @@ struct Measured {
   StandardError error{no_number, 0};
 
   Estimate estimate() const { return error.around(value); }
-  Interval interval() const { return error.interval_around(value); }
 };
 
 /// Of a statistic whose deviation is the sum of `influence`, one entry per observation of one run

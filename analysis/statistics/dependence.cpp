@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace grseg {
@@ -69,13 +68,11 @@ double effective_number(const Eigen::VectorXd& weight)
 
 Eigen::VectorXd sum_by_run(const Eigen::VectorXd& weight, const RunLengths& runs)
 {
-  Eigen::VectorXd sums(index(runs.size()));
-  std::size_t first = 0;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    sums[index(run)] = weight.segment(index(first), index(runs[run])).sum();
-    first += runs[run];
-  }
-  return sums;
+  Eigen::Index end = 0;
+  return numbers_of(runs, [&](std::size_t windows) {
+    end += index(windows);
+    return weight.segment(end - index(windows), index(windows)).sum();
+  });
 }
 
 }  // namespace

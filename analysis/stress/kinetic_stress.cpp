@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/kinetic_stress.hpp"
 
-#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums.hpp"
 
 #include <fmt/format.h>
@@ -225,7 +224,6 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
 {
   const auto words = column_words(species);
   const auto components = tensor_components(D);
-  const auto all_freedoms = freedoms<D>();
   std::vector<Cell> cells;
   std::vector<Mean> means;
   for (std::size_t k = 0; k < words.size(); ++k)
@@ -236,27 +234,23 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
   };
   const auto shear = layer ? flow(*layer) : LayerFlow{};
   each("mass_{}[kg]", [](const Mean& own) { return own.mass; });
-  cells.push_back({"u[m/s]", shear.u});
-  cells.push_back({"v[m/s]", shear.v});
-  cells.push_back({"du_dy[1/s]", shear.du_dy});
+  add_all(cells, {{"u[m/s]", shear.u}, {"v[m/s]", shear.v}, {"du_dy[1/s]", shear.du_dy}});
   for (std::size_t k = 0; k < words.size(); ++k)
     for (const auto& [suffix, row, column] : components)
       cells.push_back(
           {fmt::format("K_{}{}[J]", words[k], suffix), means[k].about_mean.kinetic(row, column)});
   each("Kr_{}[J]", [](const Mean& own) { return own.about_mean.rotational; });
   each("grains_{}", [](const Mean& own) { return own.grains; });
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    const auto temperatures = means[k].temperature();
-    for (std::size_t f = 0; f < all_freedoms.size(); ++f)
-      cells.push_back({fmt::format("T_{}_{}[m^2/s^2]", words[k], all_freedoms[f]),
-                       temperatures[static_cast<Eigen::Index>(f)]});
-  }
-  if (words.size() == 2) {
-    const auto quotient = layer ? equipartition(*layer) : Temperatures::Constant(no_number);
-    for (std::size_t f = 0; f < all_freedoms.size(); ++f)
-      cells.push_back({fmt::format("equipartition_{}", all_freedoms[f]),
-                       quotient[static_cast<Eigen::Index>(f)]});
-  }
+  const auto each_freedom = [&](const std::string& name, const char* unit, const auto& numbers) {
+    Eigen::Index place = 0;
+    for (const auto& freedom : freedoms<D>())
+      cells.push_back({fmt::format("{}_{}{}", name, freedom, unit), numbers[place++]});
+  };
+  for (std::size_t k = 0; k < words.size(); ++k)
+    each_freedom("T_" + words[k], "[m^2/s^2]", means[k].temperature());
+  if (words.size() == 2)
+    each_freedom("equipartition", "",
+                 layer ? equipartition(*layer) : Temperatures(Temperatures::Constant(no_number)));
   if (is_unbiased(flow_)) each("left_out_{}", [](const Mean& own) { return own.left_out; });
   if (layers_.map()) return cells;
   for (std::size_t k = 0; k < words.size(); ++k) {

@@ -2,14 +2,12 @@
 #include "analysis/stress/kinetic_table.hpp"
 
 #include "analysis/frames/contacts.hpp"
-#include "analysis/frames/sums.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
 
 namespace grseg {
 

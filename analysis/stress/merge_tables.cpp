@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/merge_tables.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
 #include "formats/cli/provenance.hpp"
@@ -22,9 +22,8 @@ namespace {
 /// Times in whole steps, since 3 * 0.1 s and 0.3 s are the same window.
 using Times = std::pair<std::int64_t, std::int64_t>;
 
-/// A row and what its first columns say.
-struct Row {
-  LayerKey key;
+/// A row behind its key.
+struct Row : LayerKey {
   const std::vector<double>* cells;
 };
 
@@ -41,11 +40,6 @@ using Parts = std::map<Times, Part>;
 bool is_source(const std::string& key)
 {
   return key == "history" || key == "input" || key == "bed" || key == "scene";
-}
-
-std::vector<std::string> inputs_of(const Table& table)
-{
-  return header_values(table, "input");
 }
 
 void require_stress_table(const Table& table)
@@ -127,26 +121,16 @@ Parts parts_of(const Table& table)
 /// Windows of several tables are merged where they are the same, and must not overlap otherwise.
 void refuse_overlaps(const std::map<Times, std::vector<const Part*>>& windows)
 {
-  for (auto next = windows.begin(); next != windows.end(); ++next) {
-    const auto before = next == windows.begin() ? next : std::prev(next);
+  if (windows.empty()) return;
+  for (auto before = windows.begin(), next = std::next(before); next != windows.end();
+       before = next++) {
     const auto &a = *before->second[0], &b = *next->second[0];
-    if (before != next && next->first.first < before->first.second)
+    if (next->first.first < before->first.second)
       throw UsageError(fmt::format(
           "{} and {} hold windows that overlap in part, from {:g} s and from {:g} s; make them with "
           "the same --begin and --window, or merge with --all-windows",
           a.table->name, b.table->name, a.begin, b.begin));
   }
-}
-
-/// From the first time of all parts to the last one.
-Times whole_of(const std::vector<Parts>& parts)
-{
-  using Limits = std::numeric_limits<std::int64_t>;
-  Times whole{Limits::max(), Limits::min()};
-  for (const auto& of_table : parts)
-    for (const auto& [window, part] : of_table)
-      whole = {std::min(whole.first, window.first), std::max(whole.second, window.second)};
-  return whole;
 }
 
 /// Means over the parts, weighted by frames.
@@ -168,11 +152,8 @@ std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& par
       for (std::size_t c = 0; c < means.size(); ++c)
         means[c] += part->frames / all.frames * (*found->second.cells)[key_columns.size() + c];
     }
-    LayerKey key = first.key;
-    key.begin = all.begin;
-    key.end = all.end;
-    key.frames = all.frames;
-    rows.push_back(with_key(key, means));
+    rows.push_back(
+        with_key({all.begin, all.end, first.bottom, first.top, all.frames, first.volume}, means));
   }
   return rows;
 }
@@ -188,8 +169,9 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
     require_same_settings(tables[0], table, all_windows);
   }
   // Sums are made in an order that does not depend on that of the arguments.
-  std::stable_sort(tables.begin(), tables.end(), [](const Table& a, const Table& b) {
-    return std::pair(inputs_of(a), a.to_text()) < std::pair(inputs_of(b), b.to_text());
+  std::ranges::stable_sort(tables, [](const Table& a, const Table& b) {
+    return std::pair(header_values(a, "input"), a.to_text()) <
+           std::pair(header_values(b, "input"), b.to_text());
   });
 
   std::vector<Parts> parts;
@@ -197,9 +179,12 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   for (const auto& table : tables) parts.push_back(parts_of(table));
   const auto doubt = find_runs(tables).doubt(tables);
   std::map<Times, std::vector<const Part*>> windows;
+  Times whole(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min());
   for (const auto& of_table : parts)
-    for (const auto& [window, part] : of_table)
+    for (const auto& [window, part] : of_table) {
       windows[all_windows ? Times{} : window].push_back(&part);
+      whole = {std::min(whole.first, window.first), std::max(whole.second, window.second)};
+    }
   refuse_overlaps(windows);
 
   Table merged;
@@ -215,8 +200,8 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   for (const auto& [window, of_window] : windows) add_all(merged.rows, merged_rows(of_window));
   if (all_windows && !merged.rows.empty()) {
     // In whole steps, since 2.2 - 2 is not 0.2.
-    const auto [begin, end] = whole_of(parts);
-    const double length = static_cast<double>(end - begin) * tables[0].header_positive("step");
+    const double length =
+        static_cast<double>(whole.second - whole.first) * tables[0].header_positive("step");
     for (auto& [key, value] : merged.header)
       if (key == "window") value = format_number(length);
   }

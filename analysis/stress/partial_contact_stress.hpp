@@ -3,7 +3,7 @@
 
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/composition.hpp"
-#include "analysis/frames/frame_options.hpp"
+#include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/layers.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"

@@ -19,27 +19,6 @@ namespace {
 
 using Kind = PartitionRule::Kind;
 
-double by_size(const MixedContact& contact, double)
-{
-  return contact.r_large / (contact.r_large + contact.r_small);
-}
-double up_to_contact(const MixedContact& contact, double)
-{
-  return contact.up_to_contact;
-}
-double one_half(const MixedContact&, double)
-{
-  return 0.5;
-}
-double same_for_all(const MixedContact&, double share)
-{
-  return share;
-}
-double by_power(const MixedContact& contact, double exponent)
-{
-  return 1 / (1 + std::pow(contact.r_small / contact.r_large, exponent));
-}
-
 /// The rules. To add one: a Kind, a row here and, where its share differs from contact to contact,
 /// a sum with its columns (contact_sums.hpp).
 constexpr RuleDefinition definitions[] = {
@@ -47,7 +26,8 @@ constexpr RuleDefinition definitions[] = {
     {.kind = Kind::size,
      .word = "size",
      .meaning = "r_L/(r_L + r_S) of the actual radii; of nominal ones: --preset paper",
-     .share = by_size,
+     .share = [](const MixedContact& contact,
+                 double) { return contact.r_large / (contact.r_large + contact.r_small); },
      .sum = PairSum::by_size,
      .along_own_stretch = true,
      .used_by = "grseg, Staron & Phillips 2015",
@@ -56,7 +36,7 @@ constexpr RuleDefinition definitions[] = {
     {.kind = Kind::contact_point,
      .word = "contact-point",
      .meaning = "the branch is cut where the grains touch",
-     .share = up_to_contact,
+     .share = [](const MixedContact& contact, double) { return contact.up_to_contact; },
      .sum = PairSum::up_to_contact,
      .along_own_stretch = true,
      .used_by = "MercuryDPM coarse graining; YADE, PFC stress per body",
@@ -64,7 +44,7 @@ constexpr RuleDefinition definitions[] = {
     {.kind = Kind::half,
      .word = "half",
      .meaning = "1/2",
-     .share = one_half,
+     .share = [](const MixedContact&, double) { return 0.5; },
      .used_by = "LAMMPS, LIGGGHTS compute stress/atom, also of a group",
      .stock = true},
     {.kind = Kind::drop,
@@ -76,14 +56,17 @@ constexpr RuleDefinition definitions[] = {
     {.kind = Kind::uniform,
      .word = "uniform",
      .meaning = "P for every contact",
-     .share = same_for_all,
+     .share = [](const MixedContact&, double share) { return share; },
      .number = "P",
      .least = 0,
      .most = 1},
     {.kind = Kind::power,
      .word = "power",
      .meaning = "r_L^Q/(r_L^Q + r_S^Q)",
-     .share = by_power,
+     .share =
+         [](const MixedContact& contact, double exponent) {
+           return 1 / (1 + std::pow(contact.r_small / contact.r_large, exponent));
+         },
      .sum = PairSum::by_power,
      .number = "Q"},
 };
@@ -127,23 +110,12 @@ std::span<const RuleDefinition> rule_definitions()
 
 const RuleDefinition& PartitionRule::definition() const
 {
-  return *std::find_if(std::begin(definitions), std::end(definitions),
-                       [this](const RuleDefinition& rule) { return rule.kind == kind; });
+  return *std::ranges::find(definitions, kind, &RuleDefinition::kind);
 }
 
 std::string PartitionRule::name() const
 {
   return as_typed(definition(), fmt::format("{}", value));
-}
-
-std::string PartitionRule::used_by() const
-{
-  return definition().used_by;
-}
-
-bool PartitionRule::adds_up() const
-{
-  return definition().share != nullptr;
 }
 
 std::vector<std::string> words_of_rule(bool (*wanted)(const RuleDefinition&))
@@ -206,14 +178,13 @@ std::vector<PartitionRule> without_repeats(const std::vector<PartitionRule>& rul
 {
   std::vector<PartitionRule> once;
   for (const auto& rule : rules)
-    if (std::find(once.begin(), once.end(), rule) == once.end()) once.push_back(rule);
+    if (std::ranges::find(once, rule) == once.end()) once.push_back(rule);
   return once;
 }
 
 std::string names_of(const std::vector<PartitionRule>& rules)
 {
   std::vector<std::string> names;
-  names.reserve(rules.size());
   for (const auto& rule : rules) names.push_back(rule.name());
   return fmt::format("{}", fmt::join(names, ","));
 }

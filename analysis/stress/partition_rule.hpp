@@ -63,6 +63,15 @@ struct RuleDefinition {
   double most = std::numeric_limits<double>::infinity();
 };
 
+inline std::string PartitionRule::used_by() const
+{
+  return definition().used_by;
+}
+inline bool PartitionRule::adds_up() const
+{
+  return definition().share != nullptr;
+}
+
 /// In the order in which they are listed everywhere.
 std::span<const RuleDefinition> rule_definitions();
 

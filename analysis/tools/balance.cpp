@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/balance_summary.hpp"
 #include "analysis/balance/balance_table.hpp"
 #include "analysis/frames/presets.hpp"
 #include "analysis/frames/table_writer.hpp"
@@ -66,8 +65,7 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const Kernel kernel(shape, parse_length(s.width, "--kernel-width", units));
   const auto rules = without_repeats(parse_rules(s.partition));
-  BalanceSummary<D> summary(loop.layers(), run.large_diameter());
-  PartitionSummary<D> by_rule(loop.layers(), run.large_diameter(), rules);
+  BalanceSummary<D> summary(loop.layers(), run.large_diameter(), rules);
   const MomentumBalance<D> no_grains(loop.layers(), kernel, run.gravity<D>(), run.step(),
                                      species.size());
   const PartitionedBalance<D> no_contacts(loop.layers(), kernel, rules, species.size());
@@ -85,16 +83,15 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
         window, {.velocity = true, .contacts = true, .force = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.add(window, layer, values_of(cells_of(balance, contacts, layer)));
-    summary.add(balance);
-    if (!rules.empty()) by_rule.add(balance, contacts);
+    summary.add(balance, rules.empty() ? nullptr : &contacts);
   }
   if (s.frames.json && !rules.empty())
-    write_whole(loop.options().output, by_rule.to_json(table.table()));
+    write_whole(loop.options().output, summary.to_json(table.table()));
   else
     table.write();
   if (s.frames.quiet) return;
   fmt::print(stderr, "{}: {}\n", info.name, summary.sentence());
-  if (!rules.empty()) fmt::print(stderr, "{}: {}\n", info.name, by_rule.text());
+  if (!rules.empty()) fmt::print(stderr, "{}: {}\n", info.name, summary.text());
 }
 
 void tabulate(Settings& s, const po::variables_map& values, const std::string& command)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/closure.hpp"
 
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/segregation/rates.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frames/layer_table.hpp"
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/presets.hpp"
 #include "analysis/micro/sums_table.hpp"
 #include "analysis/tools/tool_main.hpp"

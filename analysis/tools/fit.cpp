@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/fit_report.hpp"
 #include "analysis/fit/make_report.hpp"
-#include "analysis/fit/short_table.hpp"
 #include "analysis/frames/presets.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
@@ -65,7 +65,7 @@ void require_numbers(const FitReport& report)
     return std::isfinite(fit.value.B) || (report.with_paper && std::isfinite(fit.value.paper_s));
   };
   const auto& fits = report.scan ? report.scan->fits : report.rules;
-  if (std::any_of(fits.begin(), fits.end(), has_number)) return;
+  if (std::ranges::any_of(fits, has_number)) return;
   const auto& first = fits.front();
   throw RunError(fmt::format(
       "{}: {}", rule_name(report, first),

@@ -2,7 +2,7 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/frames/table_writer.hpp"
-#include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 using namespace grseg;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frames/frame_options.hpp"
+#include "analysis/frames/frame_loop.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/render/render_run.hpp"
 #include "analysis/tools/tool_main.hpp"

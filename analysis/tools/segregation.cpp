@@ -5,14 +5,11 @@
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
-#include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
-#include "formats/core/length.hpp"
 
 #include <fmt/format.h>
 
 #include <string>
-#include <utility>
 
 using namespace grseg;
 

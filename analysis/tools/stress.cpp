@@ -10,8 +10,6 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
 
-#include <fmt/format.h>
-
 using namespace grseg;
 
 namespace {

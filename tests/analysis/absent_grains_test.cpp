@@ -5,9 +5,8 @@
 #include "analysis/check/laws_of_motion.hpp"
 #include "analysis/check/weight_balance.hpp"
 #include "analysis/frames/map_grid.hpp"
-#include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/segregation/flux.hpp"
-#include "analysis/segregation/series.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "tests/analysis/contact_packings.hpp"
 
@@ -236,7 +235,7 @@ TEST(AbsentGrains, HaveNoPartInTheExtentOfAMap)
 TEST(AbsentGrains, HaveNoPartInTheBalanceOfForcesAndTorques)
 {
   expect_equal(ForceBalance<2>(gravity, step), [](const ForceBalance<2>& balance) {
-    return std::vector{balance.forces().largest, balance.forces().sum};
+    return std::vector{balance.forces.largest, balance.forces.sum};
   });
 }
 

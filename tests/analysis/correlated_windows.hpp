@@ -70,20 +70,20 @@ class Ar1 {
 /// What several windows say of one number.
 struct Verdict {
   double estimate = 0;
-  Interval interval{}, plain{};  // plain: 2.5 and 97.5 % of the samples of blocks
+  Estimate interval{}, plain{};  // plain: 2.5 and 97.5 % of the samples of blocks
 };
 
-inline bool holds(const Interval& interval, double truth)
+inline bool holds(const Estimate& interval, double truth)
 {
   return interval.low <= truth && truth <= interval.high;
 }
 
-inline Interval percentiles(Eigen::VectorXd samples)
+inline Estimate percentiles(Eigen::VectorXd samples)
 {
   if (samples.size() == 0) return {no_number, no_number};
   std::sort(samples.begin(), samples.end());
   const auto tail = static_cast<Eigen::Index>(0.025 * static_cast<double>(samples.size()));
-  return {samples[tail], samples[samples.size() - 1 - tail]};
+  return {no_number, samples[tail], samples[samples.size() - 1 - tail]};
 }
 
 inline Dependence dependence_of_mean(const Eigen::VectorXd& series, const RunLengths& runs)
@@ -103,7 +103,7 @@ inline Verdict mean_of(const Eigen::VectorXd& series, const Bootstrap& bootstrap
   const auto how = dependence_of_mean(series, bootstrap.runs());
   const double mean = series.mean();
   return {.estimate = mean,
-          .interval = bootstrap.interval(mean, sampled_means(bootstrap.samples(how), series), how),
+          .interval = bootstrap.estimate(mean, sampled_means(bootstrap.samples(how), series), how),
           .plain = percentiles(sampled_means(bootstrap.blocks(how.block), series))};
 }
 

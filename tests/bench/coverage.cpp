@@ -25,7 +25,7 @@ class Tally {
  public:
   explicit Tally(double truth) : truth_(truth) {}
 
-  void add(double estimate, const Interval& interval)
+  void add(double estimate, const Estimate& interval)
   {
     hits_ += holds(interval, truth_);
     squares_ += (estimate - truth_) * (estimate - truth_);
@@ -46,12 +46,12 @@ class Tally {
   std::vector<double> widths_;
 };
 
-Interval of(const RuleFit& fit, double Estimators::*place)
+Estimate of(const RuleFit& fit, double Estimators::*place)
 {
-  return {fit.low.*place, fit.high.*place};
+  return {fit.value.*place, fit.low.*place, fit.high.*place};
 }
 
-Interval plain_b(const FitData& data, const RuleFit& fit, const Bootstrap& bootstrap)
+Estimate plain_b(const FitData& data, const RuleFit& fit, const Bootstrap& bootstrap)
 {
   const Eigen::MatrixXd totals = bootstrap.blocks(fit.dependence.block) *
                                  window_sums(fit_points(data, {}, {}), data.runs).sums;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Momentum balances of spheres, of two species and of more.
-#include "analysis/balance/balance_summary.hpp"
 #include "analysis/balance/balance_table.hpp"
 #include "tests/analysis/grain_builder.hpp"
 

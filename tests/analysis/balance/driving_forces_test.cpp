@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/balance_summary.hpp"
 #include "analysis/balance/balance_table.hpp"
 #include "tests/analysis/grain_builder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/balance/balance_summary.hpp"
+#include "analysis/balance/balance_table.hpp"
 
 #include <gtest/gtest.h>
 

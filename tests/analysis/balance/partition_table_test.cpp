@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table and the summary of the balance under several rules.
-#include "analysis/balance/balance_summary.hpp"
 #include "analysis/balance/balance_table.hpp"
 #include "analysis/balance/driving_forces.hpp"
 #include "tests/analysis/balance/random_balance.hpp"
@@ -80,13 +79,13 @@ TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
 {
   const auto layers = thin_layers<2>();
   const double large_diameter = 0.01;
-  PartitionSummary<2> summary(layers, large_diameter, all_rules);
+  BalanceSummary<2> summary(layers, large_diameter, all_rules);
   std::vector<double> above, below;
   for (unsigned seed = 21; seed < 26; ++seed) {
     const auto frames = two_moments(seed);
     const auto window = momentum_of<2>(frames);
     const auto contacts = contacts_of<2>(frames);
-    summary.add(window, contacts);
+    summary.add(window, &contacts);
     double none = 0, all = 0, weight = 0;
     for (const auto n : layers_inside(window, layers, large_diameter)) {
       const auto over = push_over_share(driving_forces(window, n), contacts, n);
@@ -113,10 +112,11 @@ TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
 // One window has no standard error: numbers stand alone, and the two of several beside theirs.
 TEST(PartitionSummary, OfOneWindowHasNoErrors)
 {
-  PartitionSummary<2> summary(thin_layers<2>(), 0.01, all_rules);
+  BalanceSummary<2> summary(thin_layers<2>(), 0.01, all_rules);
   const auto add = [&](unsigned seed) {
     const auto frames = two_moments(seed);
-    summary.add(momentum_of<2>(frames), contacts_of<2>(frames));
+    const auto contacts = contacts_of<2>(frames);
+    summary.add(momentum_of<2>(frames), &contacts);
   };
   add(21);
   EXPECT_EQ(summary.text().find("nan"), std::string::npos) << summary.text();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a partition rule changes of the forces on a species, and what it cannot change.
-#include "analysis/balance/partitioned_balance.hpp"
-
 #include "analysis/balance/driving_forces.hpp"
+#include "analysis/balance/momentum_balance.hpp"
 #include "tests/analysis/balance/random_balance.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analysis/balance/momentum_balance.hpp"
-#include "analysis/balance/partitioned_balance.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <random>

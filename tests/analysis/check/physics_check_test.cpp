@@ -191,7 +191,7 @@ TEST_F(CheckedColumn, AllowsForABoundaryThatMovedBeforeTheStep)
   frame.force[0].y() = column.description.grains.mass[0] * (0.1 - 1.01 * gap / flight) / h;
   ContactViolations violations(rules);
   violations.add(column.description.grains, frame);
-  EXPECT_EQ(violations.open_gap().largest, 0);
+  EXPECT_EQ(violations.open_gap.largest, 0);
 }
 
 TEST_F(CheckedColumn, FailsTheApproachIfDiscsKeepApproaching)
@@ -217,7 +217,7 @@ TEST_F(CheckedColumn, HasASeparationVelocityByNewtonsLawOrByTheGap)
     frame.force[discs].y() = column.description.grains.mass[discs] * (after - before) / h;
     ContactViolations violations(rules);
     violations.add(column.description.grains, frame);
-    return violations.approach().largest / h;
+    return violations.approach.largest / h;
   };
   EXPECT_NEAR(lacking(0, -0.4, 0.1), 0, 1e-12);
   EXPECT_NEAR(lacking(0, -0.4, 0.04), 0.06, 1e-12);

@@ -203,11 +203,11 @@ TEST(NeutralContacts, TheZeroOfTheSumsIsOneAndItsIntervalHoldsIt)
   EXPECT_NE(zero, 2. / 3);
   const PartitionRule at_zero{PartitionRule::Kind::uniform, zero};
   EXPECT_NEAR(fit_rule(data, at_zero, {}, Bootstrap(data.runs, 0, 1)).value.B, 0, 1e-13);
-  EXPECT_LT(by_size.line.p_zero.interval().low, 2. / 3);
-  EXPECT_GT(by_size.line.p_zero.interval().high, 2. / 3);
+  EXPECT_LT(by_size.line.p_zero.estimate().low, 2. / 3);
+  EXPECT_GT(by_size.line.p_zero.estimate().high, 2. / 3);
   // dB/dp = -B/(p* - 2/3), as B is linear in p: both intervals tell the same.
   const double slope = by_size.value.B / (2. / 3 - zero);
-  EXPECT_NEAR((by_size.line.p_zero.interval().high - by_size.line.p_zero.interval().low) * slope,
+  EXPECT_NEAR((by_size.line.p_zero.estimate().high - by_size.line.p_zero.estimate().low) * slope,
               by_size.high.B - by_size.low.B, 0.05 * (by_size.high.B - by_size.low.B));
 }
 
@@ -283,9 +283,9 @@ TEST(Intervals, HoldEachEstimateAndExistForAll)
     EXPECT_LT(result.low.*place, result.value.*place) << name;
     EXPECT_GT(result.high.*place, result.value.*place) << name;
   }
-  EXPECT_LT(result.minus_size.interval().low, result.minus_size.value);
+  EXPECT_LT(result.minus_size.estimate().low, result.minus_size.value);
   // The same samples for both rules: the difference is known better than either.
-  EXPECT_LT(result.minus_size.interval().high - result.minus_size.interval().low,
+  EXPECT_LT(result.minus_size.estimate().high - result.minus_size.estimate().low,
             result.high.B - result.low.B);
 }
 

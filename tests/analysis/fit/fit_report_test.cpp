@@ -56,9 +56,9 @@ TEST(FitReport, EveryNumberHasARowWithItsIntervalAndWhatThatIsOver)
   EXPECT_EQ(b[0].number.low, report.rules[0].low.B);
   EXPECT_EQ(b[0].degrees, report.rules[0].degrees);
   EXPECT_EQ(rows_of(report, "uniform:0.8", "B_minus_size")[0].number.high,
-            report.rules[2].minus_size.interval().high);
+            report.rules[2].minus_size.estimate().high);
   EXPECT_EQ(rows_of(report, "-", "p_zero")[0].number.value, report.rules[0].line.p_zero.value);
-  EXPECT_EQ(rows_of(report, "-", "dB_dp")[0].number.low, report.rules[0].line.dB_dp.interval().low);
+  EXPECT_EQ(rows_of(report, "-", "dB_dp")[0].number.low, report.rules[0].line.dB_dp.estimate().low);
   EXPECT_EQ(rows_of(report, "-", "points")[0].number.value, 210);
   EXPECT_EQ(rows_of(report, "-", "points")[0].over, "-");
 }
@@ -140,7 +140,7 @@ TEST(FitReport, AScanIsATableOfBOverTheShareWithTheLineInItsHeader)
   ASSERT_EQ(scan.rows.size(), 4u);
   EXPECT_EQ(scan.rows[3][scan.column("B")], report.scan->fits[3].value.B);
   EXPECT_EQ(scan.header_number("p_zero"), report.scan->line.p_zero.value);
-  EXPECT_EQ(scan.header_number("dB_dp_high"), report.scan->line.dB_dp.interval().high);
+  EXPECT_EQ(scan.header_number("dB_dp_high"), report.scan->line.dB_dp.estimate().high);
   EXPECT_TRUE(
       holds(to_tsv(report), "# history: grseg-sim chute.ini\n# history: grseg-stress run.h5\n"));
 }

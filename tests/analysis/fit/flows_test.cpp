@@ -276,7 +276,7 @@ TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
     const auto &half = fits.all, &first = fits.of_each.at(0), &second = fits.of_each.at(1);
     const auto size = fit_over(data, over);
     EXPECT_NEAR(half.minus_size.value, half.value.B - size.value.B, 1e-14);
-    EXPECT_LT(half.minus_size.interval().low, half.minus_size.value);
+    EXPECT_LT(half.minus_size.estimate().low, half.minus_size.value);
     EXPECT_NEAR(half.neutral, (first.neutral + second.neutral) / 2, 1e-15);
     EXPECT_NEAR(half.share, 0.5, 1e-14);
     const auto a = size_exponent(data, parse_rule("half"), {.over = over}, {200, 1});

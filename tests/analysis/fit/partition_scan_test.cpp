@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/partition_scan.hpp"
-
+#include "analysis/fit/fit_pairs.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
@@ -93,7 +92,7 @@ TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
     }
     EXPECT_NEAR(scan.line.p_zero.value, r / (1 + r), 1e-12);
     EXPECT_NEAR(scan.line.dB_dp.value, slope / weight, 1e-10);
-    EXPECT_TRUE(std::isnan(scan.line.p_zero.interval().low));
+    EXPECT_TRUE(std::isnan(scan.line.p_zero.estimate().low));
   }
 }
 
@@ -135,8 +134,8 @@ TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
   const auto data = neutral_data(0.2);
   const auto scan =
       scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_LT(scan.line.p_zero.interval().low, scan.line.p_zero.value);
-  EXPECT_GT(scan.line.p_zero.interval().high, scan.line.p_zero.value);
+  EXPECT_LT(scan.line.p_zero.estimate().low, scan.line.p_zero.value);
+  EXPECT_GT(scan.line.p_zero.estimate().high, scan.line.p_zero.value);
 }
 
 // dB = dB/dp dp: the interval of the zero is that of B there.
@@ -147,7 +146,7 @@ TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
   const auto scan = scan_partition(data, parse_scan("0.5:0.8:0.01"), {}, bootstrap);
   const auto at_zero = fit_rule(data, uniform(scan.line.p_zero.value), {}, bootstrap);
   EXPECT_NEAR(at_zero.value.B, 0, 1e-12);
-  const auto interval = scan.line.p_zero.interval();
+  const auto interval = scan.line.p_zero.estimate();
   EXPECT_NEAR(
       (interval.high - interval.low) * scan.line.dB_dp.value / (at_zero.high.B - at_zero.low.B), 1,
       0.01);
@@ -183,8 +182,8 @@ TEST(PartitionScan, TheIntervalsOfZeroAndSlopeHoldTheTruth)
     const auto data = scattered_neutral_data(noise);
     const auto scan =
         scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 200, k));
-    zero_held += synthetic::holds(scan.line.p_zero.interval(), 2. / 3) / 300.;
-    slope_held += synthetic::holds(scan.line.dB_dp.interval(), slope) / 300.;
+    zero_held += synthetic::holds(scan.line.p_zero.estimate(), 2. / 3) / 300.;
+    slope_held += synthetic::holds(scan.line.dB_dp.estimate(), slope) / 300.;
   }
   for (const double held : {zero_held, slope_held}) {
     EXPECT_GT(held, 0.93 - 3 * std::sqrt(0.93 * 0.07 / 300));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/short_table.hpp"
-
+#include "analysis/fit/fit_report.hpp"
 #include "analysis/frames/sums.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
-#include "analysis/fit/partition_scan.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +30,7 @@ double sign(int window)
   return order[static_cast<std::size_t>(window) % 16] == '+' ? 1 : -1;
 }
 
-double half_width(const Interval& interval)
+double half_width(const Estimate& interval)
 {
   return (interval.high - interval.low) / 2;
 }
@@ -52,7 +51,7 @@ TEST(IntervalByHand, TheSlopeOfBFallsWhereOtherContactsGrow)
   const auto scan =
       scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
   EXPECT_NEAR(scan.line.dB_dp.value, 5. / 3, 1e-4);
-  EXPECT_NEAR(half_width(scan.line.dB_dp.interval()) / half_width(scan.line.p_zero.interval()),
+  EXPECT_NEAR(half_width(scan.line.dB_dp.estimate()) / half_width(scan.line.p_zero.estimate()),
               1. / 3 * 5. / 3, 1e-3);
 }
 
@@ -72,7 +71,7 @@ TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatOfEachRun)
   const auto data = read(tables);
   const auto scan =
       scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
-  EXPECT_NEAR(half_width(scan.line.dB_dp.interval()) / half_width(scan.line.p_zero.interval()),
+  EXPECT_NEAR(half_width(scan.line.dB_dp.estimate()) / half_width(scan.line.p_zero.estimate()),
               1. / 3 * 5. / 3, 2e-3);
 }
 
@@ -124,7 +123,7 @@ TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
   const auto scan =
       scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, Bootstrap(data.runs, 500, 1));
   EXPECT_NEAR(scan.line.p_zero.value, 0.65, 1e-9);
-  EXPECT_LT(half_width(scan.line.p_zero.interval()), 1e-9);
+  EXPECT_LT(half_width(scan.line.p_zero.estimate()), 1e-9);
   const auto fit =
       fit_rule(data, {PartitionRule::Kind::uniform, 0.65}, {}, Bootstrap(data.runs, 500, 1));
   EXPECT_LT(fit.high.B - fit.low.B, 1e-9);
@@ -170,8 +169,9 @@ TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
   const Bootstrap bootstrap(data.runs, 500, 1);
   const auto fit = fit_rule(data, {}, {}, bootstrap);
   ASSERT_GT(fit.dependence.block, 3u);
-  const auto expected = bootstrap.over_windows(
-      series.mean(), bootstrap.blocks(fit.dependence.block) * series / 96, fit.dependence);
+  const auto expected =
+      bootstrap.window_error(bootstrap.blocks(fit.dependence.block) * series / 96, fit.dependence)
+          .around(series.mean());
   EXPECT_NEAR(fit.low.minus_ln_s, expected.low, 1e-10);
   EXPECT_NEAR(fit.high.minus_ln_s, expected.high, 1e-10);
   EXPECT_NEAR(fit.at(Population::windows).low, fit.low.B, 1e-14);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/frames/layer_table.hpp"
-
+#include "analysis/frames/layer_key.hpp"
 #include "formats/core/errors.hpp"
 
 #include <gtest/gtest.h>

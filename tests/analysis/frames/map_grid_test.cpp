@@ -82,7 +82,7 @@ TEST(MapGrid, GrainsBelowZeroHaveCellsAndEdgesAreMultiplesOfTheSide)
   packing.grain(Species::small, 0.5, {-2.25, -0.75});
   packing.grain(Species::large, 1, {3, 2});
   const auto grid = grid_of(packing, closed, 1);
-  const auto& [x, y] = grid.axes();
+  const auto& [x, y] = grid.axes;
   EXPECT_EQ(x.edge(0), -3);
   EXPECT_EQ(x.edge(x.cells), 4);
   EXPECT_EQ(y.edge(0), -2);
@@ -103,7 +103,7 @@ TEST(MapGrid, ThePeriodIsMappedWhereverGrainsAre)
 {
   Packing packing;
   packing.grain(Species::small, 0.5, {9.75, 2});
-  const auto x = grid_of(packing, periodic, 2).axes()[0];
+  const auto x = grid_of(packing, periodic, 2).axes[0];
   EXPECT_EQ(x.edge(0), 0);
   EXPECT_EQ(x.edge(x.cells), 10);
 }
@@ -112,19 +112,19 @@ TEST(MapGrid, InThreeDimensionsVolumesAreThoseOfWhatIsSummedOver)
 {
   const TwoSpheres two({2, 1, 3}, {9, 5, 18});
   const auto xy = two.grid(MapPlane::xy, 2), xz = two.grid(MapPlane::xz, 3);
-  EXPECT_EQ(xy.axes()[0].cells, 5u);  // 0 to 10
+  EXPECT_EQ(xy.axes[0].cells, 5u);  // 0 to 10
   EXPECT_EQ(xy.volume(0), 2 * 2 * 20);
-  EXPECT_EQ(xz.depth(), 2 * (1 + 5) / 2.0);  // the bed is twice as high as its centre
-  EXPECT_EQ(xz.axes()[1].cells, 7u);
+  EXPECT_EQ(xz.depth, 2 * (1 + 5) / 2.0);  // the bed is twice as high as its centre
+  EXPECT_EQ(xz.axes[1].cells, 7u);
   EXPECT_NEAR(xz.volume(0), 3 * 20 / 7.0 * 6, 1e-12);
-  EXPECT_EQ(xz.at<3>({4, 100, 6}), 2 * xz.axes()[0].cells + 1);
+  EXPECT_EQ(xz.at<3>({4, 100, 6}), 2 * xz.axes[0].cells + 1);
 }
 
 TEST(MapGrid, CellsOfRzAreRings)
 {
   const TwoSpheres two({5, 8, 3}, {5, 1, 18});
   const auto rz = two.grid(MapPlane::rz, 2, Vec2{5, 4});
-  const auto& r = rz.axes()[0];
+  const auto& r = rz.axes[0];
   EXPECT_EQ(r.edge(0), 0);
   EXPECT_EQ(r.cells, 3u);  // the farther sphere ends 5 from the axis
   for (std::size_t n = 0; n < 3; ++n)

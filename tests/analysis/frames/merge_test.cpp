@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Frames that are summed up apart and put together, by every accumulator.
 #include "analysis/frames/composition.hpp"
-#include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"

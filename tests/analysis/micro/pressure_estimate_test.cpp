@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/derived_quantities.hpp"
-#include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "tests/analysis/grain_builder.hpp"
 #include "tests/analysis/neutral_contacts.hpp"

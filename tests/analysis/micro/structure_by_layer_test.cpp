@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/micro/structure_by_layer.hpp"
-
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"
 

@@ -3,7 +3,7 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/force_distribution.hpp"
-#include "analysis/micro/structure_by_layer.hpp"
+#include "analysis/micro/structure_sums.hpp"
 #include "analysis/micro/sums_table.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partition_rule.hpp"

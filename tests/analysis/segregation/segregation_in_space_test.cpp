@@ -2,7 +2,6 @@
 // Spheres that separate along y.
 #include "analysis/segregation/flux.hpp"
 #include "analysis/segregation/rates.hpp"
-#include "analysis/segregation/series.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/segregation/series.hpp"
-
+#include "analysis/segregation/flux.hpp"
 #include "analysis/segregation/rates.hpp"
 #include "tests/analysis/grain_builder.hpp"
 

@@ -13,12 +13,12 @@ namespace {
 
 using namespace synthetic;
 
-double half_width(const Interval& interval)
+double half_width(const Estimate& interval)
 {
   return (interval.high - interval.low) / 2;
 }
 
-Interval interval_of_mean(const Eigen::VectorXd& series, const RunLengths& runs,
+Estimate interval_of_mean(const Eigen::VectorXd& series, const RunLengths& runs,
                           std::size_t samples)
 {
   return mean_of(series, Bootstrap(runs, samples, 1)).interval;
@@ -134,8 +134,9 @@ TEST(Bootstrap, IndependentWindowsGiveStudentsIntervalOfTheMean)
   const Eigen::VectorXd series = Ar1(0).series(50);
   const Bootstrap bootstrap({50}, 4000, 1);
   const Dependence independent{1, 1, n, 1};
-  const auto interval = bootstrap.over_windows(
-      series.mean(), sampled_means(bootstrap.blocks(1), series), independent);
+  const auto interval =
+      bootstrap.window_error(sampled_means(bootstrap.blocks(1), series), independent)
+          .around(series.mean());
   const double s = std::sqrt((series.array() - series.mean()).square().sum() / (n - 1));
   const double expected = gsl_cdf_tdist_Pinv(0.975, n - 1) * s / std::sqrt(n);
   EXPECT_NEAR(half_width(interval) / expected, 1, 0.034);
@@ -154,7 +155,7 @@ Eigen::VectorXd plus_and_minus_one()
 TEST(Bootstrap, AnIntervalOfWindowsByHand)
 {
   const auto interval =
-      Bootstrap({40}, 100, 1).over_windows(5, plus_and_minus_one(), {3, 4, 40, 1});
+      Bootstrap({40}, 100, 1).window_error(plus_and_minus_one(), {3, 4, 40, 1}).around(5);
   EXPECT_NEAR(half_width(interval), 2.262157 * std::sqrt(100. / 99 * 10 / 9 * 16 / 11), 1e-6);
   EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }
@@ -164,7 +165,7 @@ TEST(Bootstrap, AnIntervalOfWindowsByHand)
 TEST(Bootstrap, AnIntervalOfRunsByHand)
 {
   const Bootstrap bootstrap({10, 10, 10, 10}, 100, 1);
-  const auto interval = bootstrap.over_runs(5, plus_and_minus_one(), {3, 4, 40, 4});
+  const auto interval = bootstrap.run_error(plus_and_minus_one(), {3, 4, 40, 4}).around(5);
   EXPECT_NEAR(half_width(interval), 3.182446 * std::sqrt(100. / 99 * 4 / 3), 1e-6);
   EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }

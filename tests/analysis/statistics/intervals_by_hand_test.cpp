@@ -86,7 +86,7 @@ TEST(BootstrapByHand, EveryRunCostsTheWindowsOneDegreeOfFreedom)
 {
   Eigen::VectorXd samples(100);  // of variance 100/99
   for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
-  const auto interval = Bootstrap({20, 20}, 100, 1).over_windows(5, samples, {3, 4, 40, 2});
+  const auto interval = Bootstrap({20, 20}, 100, 1).window_error(samples, {3, 4, 40, 2}).around(5);
   const double expected = 2.306004 * std::sqrt(100. / 99 * 10 / 8 * 16 / 11);
   EXPECT_NEAR(interval.high - 5, expected, 1e-5);
   EXPECT_NEAR(5 - interval.low, expected, 1e-5);
@@ -121,9 +121,8 @@ TEST(StandardErrorByHand, WithHalfADegreeThereIsAnIntervalAndWithLessThereIsNone
   const double quantile = std::pow(density * 2 * std::pow(2, -0.75) / 0.025, 2);
   EXPECT_NEAR((StandardError{1, 0.5}).reach() / quantile, 1, 1e-4);
   EXPECT_TRUE(std::isnan((StandardError{1, 0.49}).reach()));
-  EXPECT_TRUE(std::isnan((StandardError{1, 0.49}).interval_around(5).low));
-  EXPECT_EQ((StandardError{2, 0.5}).interval_around(5).high,
-            (StandardError{2, 0.5}).around(5).high);
+  EXPECT_TRUE(std::isnan((StandardError{1, 0.49}).around(5).low));
+  EXPECT_EQ((StandardError{2, 0.5}).around(5).high, (StandardError{2, 0.5}).around(5).high);
 }
 
 // Eleven points on an exponential, and off it by what no change of its three parameters can

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_key.hpp"
-#include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "tests/analysis/grain_builder.hpp"

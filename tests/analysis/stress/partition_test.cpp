@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/stress/contact_sums_reader.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/errors.hpp"
