@@ -331,9 +331,7 @@ template <int D>
 template <class Of>
 std::vector<double> BalanceSummary<D>::series(const Of& of) const
 {
-  std::vector<double> values;
-  for (const auto& window : windows_) values.push_back(std::invoke(of, window));
-  return values;
+  return listed(windows_, of);
 }
 
 template <int D>

@@ -121,10 +121,9 @@ std::string CheckReport::undecided() const
     ++counts.back().second;
   }
   if (counts.empty()) return "";
-  std::vector<std::string> names;
-  names.reserve(counts.size());
-  for (const auto& [name, count] : counts)
-    names.push_back(count > 1 ? fmt::format("{} ({} layers)", name, count) : name);
+  const auto names = listed(counts, [](const auto& of) {
+    return of.second > 1 ? fmt::format("{} ({} layers)", of.first, of.second) : of.first;
+  });
   return fmt::format(
       "undecided, since chance alone explains more than the tolerance: {}; a longer run decides",
       fmt::join(names, ", "));

@@ -265,9 +265,8 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
   data.quantity = quantity;
   data.dimension = dimension_of(*tables.front().table);
   data.species = tables.front().species;
-  std::vector<UsedRows> used;
-  used.reserve(tables.size());
-  for (const auto& table : tables) used.push_back(used_rows(table, filters, pairs, data.count));
+  const auto used = listed(
+      tables, [&](const FitTable& table) { return used_rows(table, filters, pairs, data.count); });
   const auto observations = observations_of(tables, used, data);
   for (std::size_t k = 0; k < tables.size(); ++k)
     add_samples(tables[k], used[k], observations, data);
@@ -300,9 +299,9 @@ std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
   const auto of = [&](const Tensor3& stress) {
     return settings.component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
   };
-  std::vector<PartialStress<3>> stresses;
-  stresses.reserve(data.rows.size());
-  for (const auto& sums : data.rows) stresses.push_back(partial_stress(sums, rule, settings.base));
+  const auto stresses = listed(data.rows, [&](const ContactSums<3>& sums) {
+    return partial_stress(sums, rule, settings.base);
+  });
   std::vector<FitPoint> points;
   points.reserve(data.samples.size());
   for (const auto& sample : data.samples) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/frames/layer_key.hpp"
-#include "analysis/statistics/dependence.hpp"
+#include "analysis/statistics/confidence.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "analysis/stress/partition_rule.hpp"

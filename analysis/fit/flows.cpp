@@ -224,9 +224,8 @@ void describe_scene(Flow& flow, const std::vector<const Table*>& tables, const T
 void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
 {
   const auto& own = *tables[flow.tables.front()].table;
-  std::vector<const Table*> of_flows;
-  of_flows.reserve(all.size());
-  for (const auto& one : all) of_flows.push_back(tables[one.tables.front()].table);
+  const auto of_flows =
+      listed(all, [&](const Flow& one) { return tables[one.tables.front()].table; });
   const auto differ = [&](std::string_view key) {
     const auto& line = *std::ranges::find(flow_lines, key, &FlowLine::key);
     return std::ranges::any_of(of_flows, [&](const Table* other) {

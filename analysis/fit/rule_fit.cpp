@@ -63,8 +63,8 @@ Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& w
 double degrees_taken_by_composition(const FitData& data)
 {
   const auto flow_of_window = data.flows_of_windows();
-  std::vector<std::size_t> flow;
-  for (const auto& sample : data.samples) flow.push_back(flow_of_window[sample.window]);
+  const auto flow = listed(
+      data.samples, [&](const LayerSample& sample) { return flow_of_window[sample.window]; });
   return degrees_of_composition(numbers_of(data.samples, &LayerSample::phi_large),
                                 numbers_of(data.samples, &LayerSample::weight_in_b), flow);
 }

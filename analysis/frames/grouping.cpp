@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/grouping.hpp"
 
+#include "analysis/frames/sums.hpp"
 #include "formats/core/length.hpp"
 
 #include <fmt/format.h>
@@ -171,9 +172,7 @@ std::optional<std::size_t> number_of_species(const std::string& word, const Spec
 
 std::vector<std::string> names_of(const SpeciesList& species)
 {
-  std::vector<std::string> names;
-  for (const auto& one : species) names.push_back(one.name);
-  return names;
+  return listed(species, &SpeciesEntry::name);
 }
 
 void GroupingOptions::add_to(po::options_description& options)

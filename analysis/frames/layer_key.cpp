@@ -105,15 +105,14 @@ const char* unit_of_volume(int dimension)
 
 std::vector<std::string> with_key_columns(int dimension, const std::vector<std::string>& more)
 {
-  std::vector<std::string> names;
-  for (const auto& column : key_columns) names.push_back(column.name_with_unit(dimension));
+  auto names = listed(key_columns,
+                      [&](const KeyColumn& column) { return column.name_with_unit(dimension); });
   return add_all(names, more);
 }
 
 std::vector<double> with_key(const LayerKey& key, const std::vector<double>& more)
 {
-  std::vector<double> row;
-  for (const auto& column : key_columns) row.push_back(key.*column.value);
+  auto row = listed(key_columns, [&](const KeyColumn& column) { return key.*column.value; });
   return add_all(row, more);
 }
 

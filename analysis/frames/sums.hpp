@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace grseg {
@@ -87,20 +89,23 @@ List& add_all(List& list, const List& more)
   return list;
 }
 
-inline std::vector<std::string> columns_of(const std::vector<Cell>& cells)
+/// What `of`, a function or a member, says of each in a list.
+template <class List, class Of>
+auto listed(const List& list, const Of& of)
 {
-  std::vector<std::string> columns;
-  columns.reserve(cells.size());
-  for (const auto& cell : cells) columns.push_back(cell.column);
-  return columns;
+  std::vector<std::decay_t<std::invoke_result_t<const Of&, decltype(*list.begin())>>> all;
+  all.reserve(list.size());
+  for (const auto& one : list) all.push_back(std::invoke(of, one));
+  return all;
 }
 
+inline std::vector<std::string> columns_of(const std::vector<Cell>& cells)
+{
+  return listed(cells, &Cell::column);
+}
 inline std::vector<double> values_of(const std::vector<Cell>& cells)
 {
-  std::vector<double> values;
-  values.reserve(cells.size());
-  for (const auto& cell : cells) values.push_back(cell.value);
-  return values;
+  return listed(cells, &Cell::value);
 }
 
 }  // namespace grseg

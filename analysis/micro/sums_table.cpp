@@ -99,9 +99,7 @@ std::vector<SumsRow<D>> read_sums_rows(const Table& table)
   rows.reserve(table.rows.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& numbers = table.rows[r];
-    std::vector<double> values;
-    values.reserve(sums.size());
-    for (const auto& sum : sums) values.push_back(value_of(table, r, sum));
+    const auto values = listed(sums, [&](const SumColumn& sum) { return value_of(table, r, sum); });
     rows.push_back({keys[r],
                     StructureSums<D>::from_values(values),
                     {numbers[of_heights[0]], numbers[of_heights[1]], numbers[of_heights[2]]},
@@ -183,9 +181,7 @@ std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool)
     if (pool == Pool::composition && (row.is_bed() || std::isnan(row.sums.phi_large()))) continue;
     pools[pool_key(row, pool)].push_back(row);
   }
-  std::vector<SumsRow<D>> result;
-  for (const auto& [key, of_pool] : pools) result.push_back(merged(of_pool));
-  return result;
+  return listed(pools, [](const auto& of_key) { return merged(of_key.second); });
 }
 
 template std::vector<SumsRow<2>> filtered(std::vector<SumsRow<2>>, const RowFilter&, LengthUnits);

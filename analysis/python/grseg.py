@@ -1597,7 +1597,7 @@ def _composition_noise(phi, value, weight):
 
 
 def _autocorrelation_time(series):
-    """In windows, at least 1 (analysis/statistics/dependence.hpp)."""
+    """In windows, at least 1 (analysis/statistics/confidence.hpp)."""
     n, rest = len(series), series - series.mean()
     square = rest @ rest
     if not square > 0:

@@ -4,7 +4,6 @@
 #include "analysis/frames/sums.hpp"
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
-#include "analysis/statistics/dependence.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>

@@ -367,9 +367,7 @@ ClosureData read_closure(const std::vector<Table>& tables, const std::vector<Par
                          const ClosureFilter& filter)
 {
   const auto runs = runs_of(tables);
-  std::vector<Table> segregation;
-  segregation.reserve(runs.size());
-  for (const auto& run : runs) segregation.push_back(*run.segregation);
+  const auto segregation = listed(runs, [](const RunTables& run) { return *run.segregation; });
   const auto distinct = find_runs(segregation);
   std::map<const Table*, std::size_t> run_of;
   for (std::size_t k = 0; k < runs.size(); ++k) run_of[runs[k].segregation] = distinct.run[k];

@@ -3,7 +3,7 @@
 
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/dependence.hpp"
+#include "analysis/statistics/confidence.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"

@@ -218,9 +218,8 @@ std::vector<SegregationResult> SegregationFlux<D>::results(const Grains& grains,
 
   std::vector<SegregationResult> results;
   for (std::size_t n = 0; n < layers; ++n) {
-    std::vector<LayerSegregation> values;
-    values.reserve(left_out.size());
-    for (const auto& others : left_out) values.push_back(evaluate(others, n, bed));
+    const auto values =
+        listed(left_out, [&](const Profile& others) { return evaluate(others, n, bed); });
     const auto frames = static_cast<double>(frames_);
     const auto& sums = all[n];
     std::array<LayerMomentum, 2> momentum;

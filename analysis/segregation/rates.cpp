@@ -3,7 +3,7 @@
 
 #include "analysis/frames/sums.hpp"
 #include "analysis/segregation/rates.hpp"
-#include "analysis/statistics/dependence.hpp"
+#include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 #include "analysis/statistics/least_squares.hpp"
 #include "formats/core/errors.hpp"
@@ -294,10 +294,9 @@ Moment mean_of_last(const std::vector<Moment>& moments, std::size_t count)
 
 std::vector<Cell> cells(const Moment& bed)
 {
-  std::vector<Cell> cells;
-  cells.reserve(bed_columns.size());
-  for (const auto& [column, place] : bed_columns) cells.push_back({column, bed.*place});
-  return cells;
+  return listed(bed_columns, [&](const BedColumn& own) {
+    return Cell{own.column, bed.*own.place};
+  });
 }
 
 }  // namespace

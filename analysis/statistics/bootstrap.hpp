@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analysis/statistics/confidence.hpp"
-#include "analysis/statistics/dependence.hpp"
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -67,11 +67,9 @@ std::string column_name(const NamedSum& sum, const TensorComponent& component)
 
 std::vector<std::string> content_columns(const SpeciesList& species, int dimension)
 {
-  std::vector<std::string> names;
-  for (const auto& word : column_words(species))
-    names.push_back(dimension == 3 ? fmt::format("volume_{}[m^3]", word)
-                                   : fmt::format("area_{}[m^2]", word));
-  return names;
+  return listed(column_words(species), [&](const std::string& word) {
+    return dimension == 3 ? fmt::format("volume_{}[m^3]", word) : fmt::format("area_{}[m^2]", word);
+  });
 }
 
 std::vector<std::string> contact_number_columns(const SpeciesList& species)

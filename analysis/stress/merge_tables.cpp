@@ -174,9 +174,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
            std::pair(header_values(b, "input"), b.to_text());
   });
 
-  std::vector<Parts> parts;
-  parts.reserve(tables.size());
-  for (const auto& table : tables) parts.push_back(parts_of(table));
+  const auto parts = listed(tables, parts_of);
   const auto doubt = find_runs(tables).doubt(tables);
   std::map<Times, std::vector<const Part*>> windows;
   Times whole(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min());

@@ -184,9 +184,7 @@ std::vector<PartitionRule> without_repeats(const std::vector<PartitionRule>& rul
 
 std::string names_of(const std::vector<PartitionRule>& rules)
 {
-  std::vector<std::string> names;
-  for (const auto& rule : rules) names.push_back(rule.name());
-  return fmt::format("{}", fmt::join(names, ","));
+  return fmt::format("{}", fmt::join(listed(rules, &PartitionRule::name), ","));
 }
 
 template <int D>

@@ -2,7 +2,6 @@
 #include "analysis/frames/presets.hpp"
 #include "analysis/frames/table_writer.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
-#include "analysis/stress/kinetic_table.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"

@@ -79,7 +79,7 @@ constexpr double solver_error = 0.01;
 /// 0.3 it is the same as where nothing returns.
 constexpr double parting_error = 0.1;
 
-/// The only place in sim that decides what a law means; analysis/check/contact_violations.cpp states the
+/// The only place in sim that decides what a law means; analysis/check/laws_of_motion.cpp states the
 /// same for grseg-check. All but `law` matter to the speculative law alone: its margin is what
 /// neighbours may add to the approach of a pair within the horizon, at a velocity of sqrt(g d_S).
 /// `horizon` in steps, `step` in s, `gravity` in m/s^2, `small_diameter` in m.

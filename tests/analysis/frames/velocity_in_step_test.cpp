@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/stress/kinetic_table.hpp"
+#include "analysis/stress/kinetic_stress.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/grain_builder.hpp"
 

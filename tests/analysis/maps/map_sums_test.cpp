@@ -2,7 +2,7 @@
 // Sums over the cells of a map.
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/stress/kinetic_table.hpp"
+#include "analysis/stress/kinetic_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "tests/analysis/contact_packings.hpp"
 

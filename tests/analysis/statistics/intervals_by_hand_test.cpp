@@ -2,7 +2,6 @@
 // Autocorrelation times, blocks and standard errors of series short enough to be worked out on paper.
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
-#include "analysis/statistics/dependence.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 
 #include <gtest/gtest.h>
