@@ -287,12 +287,6 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
   return data;
 }
 
-FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
-                      const FitFilters& filters, const std::vector<PartitionRule>& rules)
-{
-  return select_fit_data(read_fit_tables(tables, quantity, rules), quantity, filters, {{0, 1}});
-}
-
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {

@@ -146,10 +146,6 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);
 
-/// Both, of the two species that most tables have.
-FitData read_fit_data(const std::vector<Table>& tables, Quantity quantity,
-                      const FitFilters& filters, const std::vector<PartitionRule>& rules);
-
 /// A point of the fit under one partition rule; stresses in N/m, in three dimensions Pa, the
 /// chosen component.
 struct FitPoint {

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -235,64 +234,36 @@ void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<Par
   }
 }
 
-bool is_usable(const ClosurePoint& point)
+/// Gravity along y, m/s^2, of two tables that must go together.
+double gravity_of(const RunTables& tables)
 {
-  return point.weight > 0 && std::isfinite(point.flux + point.driving + point.gradient) &&
-         point.product > 0 && std::isfinite(point.excess.back());
+  const auto &segregation = *tables.segregation, &stress = *tables.stress;
+  for (const char* key : {"layer", "window"})
+    if (!same_setting(header_or(segregation, key, ""), header_or(stress, key, "")))
+      throw UsageError(fmt::format(
+          "{} and {} differ in '{}'; make both tables of the run with the same --layer and "
+          "--window",
+          segregation.name, stress.name, key));
+  const double gravity = segregation.header_number("gravity_y");
+  if (!(gravity < 0))
+    throw FormatError(fmt::format(
+        "{}: '# gravity_y: {}' should be negative; the driving force is the weight above",
+        segregation.name, segregation.header_text("gravity_y")));
+  return gravity;
 }
 
-class RunReader {
- public:
-  RunReader(const RunTables& tables, const std::vector<PartitionRule>& rules,
-            const ClosureFilter& filter, std::vector<TableWindow>& windows, ClosureData& data)
-      : tables_(tables),
-        rules_(rules),
-        filter_(filter),
-        before_(filter.instruments == Instruments::previous),
-        windows_(windows),
-        data_(data)
-  {
-    for (const char* key : {"layer", "window"})
-      if (!same_setting(header_or(*tables.segregation, key, ""),
-                        header_or(*tables.stress, key, "")))
-        throw UsageError(fmt::format(
-            "{} and {} differ in '{}'; make both tables of the run with the same --layer and "
-            "--window",
-            tables.segregation->name, tables.stress->name, key));
-    gravity_ = tables.segregation->header_number("gravity_y");
-    if (!(gravity_ < 0))
-      throw FormatError(fmt::format(
-          "{}: '# gravity_y: {}' should be negative; the driving force is the weight above",
-          tables.segregation->name, tables.segregation->header_text("gravity_y")));
-  }
-
-  void read();
-
- private:
-  std::optional<ClosurePoint> point_of(const LayerMotion& motion,
-                                       const std::map<Place, LayerMotion>& motions,
-                                       const std::map<Place, Stress>& stresses) const;
-
-  RunTables tables_;
-  const std::vector<PartitionRule>& rules_;
-  const ClosureFilter& filter_;
-  bool before_;                        // points need the window before
-  std::vector<TableWindow>& windows_;  // of each point
-  ClosureData& data_;
-  double gravity_ = 0;  // along y, m/s^2
+/// The rows of both tables of a run.
+struct RunRows {
+  std::map<Place, LayerMotion> motions;
+  std::map<Place, Stress> stresses;
+  double gravity;
 };
 
-std::optional<ClosurePoint> RunReader::point_of(const LayerMotion& motion,
-                                                const std::map<Place, LayerMotion>& motions,
-                                                const std::map<Place, Stress>& stresses) const
+ClosurePoint point_of(const LayerMotion& motion, const Stress& stress, const RunRows& rows,
+                      const std::vector<PartitionRule>& rules)
 {
   const auto& key = motion.key;
-  const auto stress = stresses.find(place_of(key));
-  if (stress == stresses.end())
-    throw UsageError(fmt::format(
-        "{}: has no row for the layer from {:g} to {:g} m from {:g} to {:g} s, which "
-        "{} has; make both tables of the run with the same --begin and --end",
-        tables_.stress->name, key.bottom, key.top, key.begin, key.end, tables_.segregation->name));
+  const auto& [motions, stresses, gravity] = rows;
   ClosurePoint point;
   point.frames = key.frames;
   point.weight = key.frames * (motion.small + motion.large);
@@ -300,43 +271,58 @@ std::optional<ClosurePoint> RunReader::point_of(const LayerMotion& motion,
   point.gradient = motion.gradient;
   point.diffusivity = motion.diffusivity;
   const double fall =
-      add_forces(point, motion, neighbour(motions, key, -1), neighbour(motions, key, 1), gravity_);
-  add_window_before(point, motion, motions, gravity_);
-  add_stress(point, stress->second, rules_);
+      add_forces(point, motion, neighbour(motions, key, -1), neighbour(motions, key, 1), gravity);
+  add_window_before(point, motion, motions, gravity);
+  add_stress(point, stress, rules);
   const double lost = -slope(neighbour(stresses, key, -1), neighbour(stresses, key, 1),
                              [](const Stress& s) { return s.total; });
   point.weight_above = lost / (motion.density() * fall);
-  const bool lacks_neighbour = !std::isnan(motion.density()) && std::isnan(point.kinetic_push);
-  const bool lacks_before = std::isnan(point.driving_before + point.gradient_before);
-  if (lacks_neighbour || (before_ && lacks_before) || !is_usable(point)) return {};
   return point;
 }
 
-void RunReader::read()
+bool is_usable(const ClosurePoint& point, const LayerMotion& motion, Instruments instruments)
 {
-  const LengthUnits units{tables_.segregation->header_positive("small_diameter"),
-                          tables_.segregation->header_positive("large_diameter")};
-  RowRange range = filter_.range;
-  const auto list = motions_of(*tables_.segregation, data_.has_kinetic);
-  std::vector<LayerSolid> layers;
-  layers.reserve(list.size());
-  for (const auto& motion : list)
-    layers.push_back({motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()});
-  range.heights = parse_heights(filter_.heights, units, layers);
-  const double least_solid = filter_.min_solid * median_solid(layers);
-  std::map<Place, LayerMotion> motions;
-  for (const auto& motion : list) motions.emplace(place_of(motion.key), motion);
-  const auto stresses = stresses_of(*tables_.stress, rules_);
+  const bool lacks_neighbour = !std::isnan(motion.density()) && std::isnan(point.kinetic_push);
+  const bool lacks_before = instruments == Instruments::previous &&
+                            std::isnan(point.driving_before + point.gradient_before);
+  return !lacks_neighbour && !lacks_before && point.weight > 0 &&
+         std::isfinite(point.flux + point.driving + point.gradient) && point.product > 0 &&
+         std::isfinite(point.excess.back());
+}
 
-  data_.rows += list.size();
+/// Adds the points of a run, and the window of each.
+void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
+              const ClosureFilter& filter, std::vector<TableWindow>& windows, ClosureData& data)
+{
+  const auto& segregation = *tables.segregation;
+  RunRows rows{{}, {}, gravity_of(tables)};
+  const LengthUnits units{segregation.header_positive("small_diameter"),
+                          segregation.header_positive("large_diameter")};
+  RowRange range = filter.range;
+  const auto list = motions_of(segregation, data.has_kinetic);
+  const auto layers = listed(list, [](const LayerMotion& motion) {
+    return LayerSolid{motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()};
+  });
+  range.heights = parse_heights(filter.heights, units, layers);
+  const double least_solid = filter.min_solid * median_solid(layers);
+  for (const auto& motion : list) rows.motions.emplace(place_of(motion.key), motion);
+  rows.stresses = stresses_of(*tables.stress, rules);
+
+  data.rows += list.size();
   for (const auto& motion : list) {
-    if (!range.holds_window(motion.key) || !range.holds_layer(motion.key) ||
-        !(motion.solid() >= least_solid))
+    const auto& key = motion.key;
+    if (!range.holds_window(key) || !range.holds_layer(key) || !(motion.solid() >= least_solid))
       continue;
-    auto point = point_of(motion, motions, stresses);
-    if (!point) continue;
-    windows_.push_back({tables_.segregation, {motion.key.begin, motion.key.end}});
-    data_.points.push_back(std::move(*point));
+    const auto stress = rows.stresses.find(place_of(key));
+    if (stress == rows.stresses.end())
+      throw UsageError(fmt::format(
+          "{}: has no row for the layer from {:g} to {:g} m from {:g} to {:g} s, which "
+          "{} has; make both tables of the run with the same --begin and --end",
+          tables.stress->name, key.bottom, key.top, key.begin, key.end, segregation.name));
+    auto point = point_of(motion, stress->second, rows, rules);
+    if (!is_usable(point, motion, filter.instruments)) continue;
+    windows.push_back({tables.segregation, {key.begin, key.end}});
+    data.points.push_back(std::move(point));
   }
 }
 
@@ -377,7 +363,7 @@ ClosureData read_closure(const std::vector<Table>& tables, const std::vector<Par
   data.instruments = filter.instruments;
   data.doubt = distinct.doubt(segregation);
   std::vector<TableWindow> windows;
-  for (const auto& run : runs) RunReader(run, read, filter, windows, data).read();
+  for (const auto& run : runs) read_run(run, read, filter, windows, data);
   number_windows(windows, run_of, data);
   if (data.points.empty())
     throw RunError(

@@ -52,7 +52,7 @@ inline std::vector<TableRow> neutral_rows(double noise, double r = 2, int window
 inline FitData read(const std::vector<Table>& tables, const FitFilters& filters = {},
                     Quantity quantity = Quantity::contact)
 {
-  return read_fit_data(tables, quantity, filters, {});
+  return select_fit_data(read_fit_tables(tables, quantity, {}), quantity, filters, {{0, 1}});
 }
 
 inline FitData neutral_data(double noise)

@@ -25,8 +25,15 @@ std::string ended(std::string_view part)
 
 void read(const std::vector<Table>& tables)
 {
-  fuzz::try_to([&] { read_fit_data(tables, Quantity::contact, {}, parse_rules({"stock"})); });
-  fuzz::try_to([&] { read_fit_data(tables, Quantity::kinetic, {.heights = "1dS:"}, {}); });
+  fuzz::try_to([&] {
+    const auto contact = Quantity::contact;
+    select_fit_data(read_fit_tables(tables, contact, parse_rules({"stock"})), contact, {},
+                    {{0, 1}});
+  });
+  fuzz::try_to([&] {
+    const auto kinetic = Quantity::kinetic;
+    select_fit_data(read_fit_tables(tables, kinetic, {}), kinetic, {.heights = "1dS:"}, {{0, 1}});
+  });
   constexpr ToolInfo tool{"grseg-stress", "", "", ""};
   fuzz::try_to([&] { merge_tables(tables, tables.size() % 2 == 0, tool, "fuzz"); });
   for (const auto& table : tables) {
