@@ -8,22 +8,6 @@ namespace {
 
 constexpr char letters[] = {'x', 'y', 'z'};
 
-/// The name of a sum's columns for one species.
-std::string own_name(const ContactSumColumns& sum, const std::string& word, bool two)
-{
-  switch (static_cast<OwnSum>(sum.sum)) {
-    case OwnSum::inside:
-      return two ? fmt::format("{}_{}{}", sum.stem, word, word)
-                 : fmt::format("{}_{}", sum.stem, word);
-    case OwnSum::base:
-    case OwnSum::whole_base:
-      return fmt::format("{}_{}{}b", sum.stem, word, two ? "" : "+");
-    case OwnSum::halves:
-      break;
-  }
-  return two ? fmt::format("{}{}{}", sum.stem, word, word) : fmt::format("{}_{}", sum.stem, word);
-}
-
 }  // namespace
 
 std::vector<TensorComponent> tensor_components(int dimension)
@@ -42,11 +26,13 @@ std::vector<NamedSum> named_sums(const SpeciesList& species, InTables in)
   std::vector<NamedSum> named;
   for (const auto& sum : contact_sum_columns) {
     if (sum.in != in) continue;
+    const auto name = [&](const std::string& smaller, const std::string& larger) {
+      return fmt::format(fmt::runtime(two ? sum.of_two : sum.of_others), smaller, larger);
+    };
     for (std::size_t b = 0; b < words.size(); ++b) {
-      if (!sum.of_pairs) named.push_back({own_name(sum, words[b], two), &sum, b});
+      if (!sum.of_pairs) named.push_back({name(words[b], words[b]), &sum, b});
       for (std::size_t a = 0; sum.of_pairs && a < b; ++a)
-        named.push_back({two ? sum.stem : fmt::format("{}_{}+{}", sum.stem, words[a], words[b]),
-                         &sum, pair_index(a, b)});
+        named.push_back({name(words[a], words[b]), &sum, pair_index(a, b)});
     }
   }
   return named;

@@ -116,7 +116,7 @@ enum class InTables {
 
 /// A sum whose components stand in columns, one group of columns for each species or pair.
 struct ContactSumColumns {
-  const char* stem;
+  const char *of_two, *of_others;  // the name where there are two species, and of others
   bool of_pairs;
   std::size_t sum;  // an OwnSum, or a PairSum where it is of pairs
   InTables in;
@@ -125,16 +125,16 @@ struct ContactSumColumns {
 /// The one list of all sums, in the order of the table. Whatever writes, reads or merges them goes
 /// through it.
 inline constexpr std::array<ContactSumColumns, own_sums + pair_sums> contact_sum_columns{{
-    {"A", false, static_cast<std::size_t>(OwnSum::inside), InTables::all},
-    {"M", true, static_cast<std::size_t>(PairSum::whole), InTables::all},
-    {"Msize", true, static_cast<std::size_t>(PairSum::by_size), InTables::all},
-    {"Mcp", true, static_cast<std::size_t>(PairSum::up_to_contact), InTables::all},
-    {"A", false, static_cast<std::size_t>(OwnSum::base), InTables::all},
-    {"F", false, static_cast<std::size_t>(OwnSum::whole_base), InTables::all},
-    {"H", false, static_cast<std::size_t>(OwnSum::halves), InTables::at_centres},
-    {"ML", true, static_cast<std::size_t>(PairSum::at_larger), InTables::at_centres},
-    {"MS", true, static_cast<std::size_t>(PairSum::at_smaller), InTables::at_centres},
-    {"Mpower", true, static_cast<std::size_t>(PairSum::by_power), InTables::power},
+    {"A_{}{}", "A_{}", false, static_cast<std::size_t>(OwnSum::inside), InTables::all},
+    {"M", "M_{}+{}", true, static_cast<std::size_t>(PairSum::whole), InTables::all},
+    {"Msize", "Msize_{}+{}", true, static_cast<std::size_t>(PairSum::by_size), InTables::all},
+    {"Mcp", "Mcp_{}+{}", true, static_cast<std::size_t>(PairSum::up_to_contact), InTables::all},
+    {"A_{}b", "A_{}+b", false, static_cast<std::size_t>(OwnSum::base), InTables::all},
+    {"F_{}b", "F_{}+b", false, static_cast<std::size_t>(OwnSum::whole_base), InTables::all},
+    {"H{}{}", "H_{}", false, static_cast<std::size_t>(OwnSum::halves), InTables::at_centres},
+    {"ML", "ML_{}+{}", true, static_cast<std::size_t>(PairSum::at_larger), InTables::at_centres},
+    {"MS", "MS_{}+{}", true, static_cast<std::size_t>(PairSum::at_smaller), InTables::at_centres},
+    {"Mpower", "Mpower_{}+{}", true, static_cast<std::size_t>(PairSum::by_power), InTables::power},
 }};
 
 /// What a table of grseg-stress was made with, as far as it adds columns.

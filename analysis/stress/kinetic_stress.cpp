@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace grseg {
 
@@ -102,14 +103,6 @@ std::optional<MotionProduct<D>> about_others(const std::optional<MotionOfOthers<
 bool is_unbiased(MeanFlow flow)
 {
   return flow == MeanFlow::instant_unbiased || flow == MeanFlow::profile_unbiased;
-}
-
-/// "x", "y", in three dimensions "z", and "r" for rotation.
-template <int D>
-std::vector<std::string> freedoms()
-{
-  if constexpr (D == 2) return {"x", "y", "r"};
-  return {"x", "y", "z", "r"};
 }
 
 }  // namespace
@@ -246,7 +239,7 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
   each("grains_{}", [](const Mean& own) { return own.grains; });
   const auto each_freedom = [&](const std::string& name, const char* unit, const auto& numbers) {
     Eigen::Index place = 0;
-    for (const auto& freedom : freedoms<D>())
+    for (const char freedom : std::string_view(D == 2 ? "xyr" : "xyzr"))  // r: rotation
       cells.push_back({fmt::format("{}_{}{}", name, freedom, unit), numbers[place++]});
   };
   for (std::size_t k = 0; k < words.size(); ++k)
