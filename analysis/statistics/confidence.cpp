@@ -78,8 +78,9 @@ MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers)
 {
   const auto count = static_cast<double>(numbers.size());
   const auto values = numbers_of(numbers, &Measured::value);
-  std::vector<StandardError> parts;
-  for (const auto& [value, error] : numbers) parts.push_back({error.error / count, error.degrees});
+  const auto parts = listed(numbers, [&](const Measured& number) {
+    return StandardError{number.error.error / count, number.error.degrees};
+  });
   return {values.mean(), added(parts), scatter_of_values(values)};
 }
 
