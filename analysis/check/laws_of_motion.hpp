@@ -146,7 +146,7 @@ class StressClosure {
 class TrajectoryReader;
 
 /// The contact law of a run, as its /parameters say; the laws are those of
-/// docs/studies/numerics.md.
+/// docs/studies/accuracy.md.
 struct ContactRules {
   std::optional<double> friction;     // Coulomb's mu
   std::optional<double> restitution;  // Newton's e
