@@ -8,10 +8,6 @@
 namespace grseg {
 namespace {
 
-struct SpeciesColours {
-  Colour grain, line;
-};
-
 /// Okabe & Ito (2008), "Color Universal Design".
 constexpr Colour orange = rgb(0xe69f00), sky_blue = rgb(0x56b4e9), green = rgb(0x009e73),
                  yellow = rgb(0xf0e442), blue = rgb(0x0072b2), vermilion = rgb(0xd55e00),
@@ -36,22 +32,6 @@ Colour between(std::span<const Colour> stops, double place)
   return mix(stops[stop], stops[stop + 1], at - static_cast<double>(stop));
 }
 
-SpeciesColours colours_of(std::size_t number, std::size_t count)
-{
-  if (count <= std::size(palette)) return palette[number];
-  const auto colour = viridis(static_cast<double>(number) / static_cast<double>(count - 1));
-  return {colour, colour};
-}
-
-constexpr Theme light{.background = rgb(0xffffff),
-                      .ink = rgb(0x1a1a1a),
-                      .faint = rgb(0xb8b8b8),
-                      .boundary = rgb(0xa8a8a8)};
-constexpr Theme dark{.background = rgb(0x14171c),
-                     .ink = rgb(0xe6e6e6),
-                     .faint = rgb(0x4a505a),
-                     .boundary = rgb(0x6b7280)};
-
 }  // namespace
 
 Colour mix(const Colour& a, const Colour& b, double share)
@@ -60,19 +40,11 @@ Colour mix(const Colour& a, const Colour& b, double share)
   return {part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
 }
 
-const Theme& theme_of(ThemeName name)
+SpeciesColours species_colours(std::size_t number, std::size_t count)
 {
-  return name == ThemeName::dark ? dark : light;
-}
-
-Colour species_colour(std::size_t number, std::size_t count)
-{
-  return colours_of(number, count).grain;
-}
-
-Colour species_line_colour(std::size_t number, std::size_t count)
-{
-  return colours_of(number, count).line;
+  if (count <= std::size(palette)) return palette[number];
+  const auto colour = viridis(static_cast<double>(number) / static_cast<double>(count - 1));
+  return {colour, colour};
 }
 
 Colour viridis(double place)

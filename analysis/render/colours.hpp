@@ -30,16 +30,17 @@ struct Theme {
   Colour faint;            // edges of the cell
   Colour boundary;         // grains that belong to none of the species
 };
-enum class ThemeName { light, dark };
-inline constexpr Choice<ThemeName> theme_names[] = {{"light", ThemeName::light},
-                                                    {"dark", ThemeName::dark}};
-const Theme& theme_of(ThemeName name);
+inline constexpr Choice<Theme> themes[] = {
+    {"light", {rgb(0xffffff), rgb(0x1a1a1a), rgb(0xb8b8b8), rgb(0xa8a8a8)}},
+    {"dark", {rgb(0x14171c), rgb(0xe6e6e6), rgb(0x4a505a), rgb(0x6b7280)}}};
 
 /// Of species `number` of `count`, in order of size: the palette of Okabe & Ito (2008), small grains
-/// sky blue and large ones vermilion. More species than it has colours lie along viridis.
-Colour species_colour(std::size_t number, std::size_t count);
-/// The same hue for lines over grains of that colour.
-Colour species_line_colour(std::size_t number, std::size_t count);
+/// sky blue and large ones vermilion. More species than it has colours lie along viridis. `line` is the
+/// same hue for lines over grains of that colour.
+struct SpeciesColours {
+  Colour grain, line;
+};
+SpeciesColours species_colours(std::size_t number, std::size_t count);
 
 /// From a place 0 to 1, beyond which the ends hold, to a colour.
 using ColourMap = Colour (*)(double place);

@@ -19,19 +19,13 @@ Colour colour_of(const Grains& grains, std::size_t g, const std::vector<double>&
   return std::isnan(values[g]) ? colours.boundary : colours.scale->at(values[g]);
 }
 
-/// A disc and when it is drawn: the lowest first.
-struct Placed {
-  double order;
-  Disc disc;
-};
-
 template <int D>
 std::vector<Disc> discs_of(const Grains& grains, const Frame<D>& frame,
                            const std::vector<double>& values, const View& view,
                            const GrainColours& colours)
 {
-  std::vector<Placed> placed;
-  placed.reserve(grains.size());
+  std::vector<Disc> discs;
+  discs.reserve(grains.size());
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_present(frame, g)) continue;
     const auto nearness = view.nearness<D>(frame.position[g]);
@@ -42,27 +36,16 @@ std::vector<Disc> discs_of(const Grains& grains, const Frame<D>& frame,
     const Vec2 reach = Vec2::Constant(grains.radius[g]);
     const Colour colour = colour_of(grains, g, values, colours);
     view.for_images(centre - reach, centre + reach, [&](const Vec2& shift) {
-      placed.push_back({order, {centre + shift, grains.radius[g], colour}});
+      discs.push_back({centre + shift, grains.radius[g], colour, order});
     });
   }
-  std::stable_sort(placed.begin(), placed.end(),
-                   [](const Placed& a, const Placed& b) { return a.order < b.order; });
-  std::vector<Disc> discs;
-  discs.reserve(placed.size());
-  for (const auto& each : placed) discs.push_back(each.disc);
+  std::ranges::stable_sort(discs, {}, &Disc::order);
   return discs;
 }
 
-/// A contact on the page: `i` and `j` are where its grains' centres are, or j the contact point at a
-/// wall.
-struct Contact {
-  Vec2 i, j;
-  double width;
-};
-
-/// The lines of a contact whose grains have these parts of it.
+/// The lines of contact `k`, of which `whole` is the whole one, by the rule of the style.
 template <int D>
-void add_shared(std::vector<Line>& lines, const Contact& line, const Grains& grains,
+void add_shared(std::vector<Line>& lines, const Line& whole, const Grains& grains,
                 const Frame<D>& frame, std::size_t k, const LineStyle& style)
 {
   const auto [i, j] = partners(grains, frame, k);
@@ -70,16 +53,17 @@ void add_shared(std::vector<Line>& lines, const Contact& line, const Grains& gra
   const auto colour = [&](std::size_t g) {
     return style.of_species[static_cast<std::size_t>(grains.species[g])];
   };
-  const Vec2 along = line.j - line.i;
+  const Vec2 &from = whole.from, &to = whole.to;
+  const double width = whole.width;
+  const Vec2 along = to - from;
   if (j && grains.species[i] == grains.species[*j]) {
-    lines.push_back({line.i, line.j, line.width, colour(i), true});
+    lines.push_back({from, to, width, colour(i), true});
     return;
   }
-  if (shares.i + shares.j < 1) lines.push_back({line.i, line.j, line.width, style.nobody, true});
+  if (shares.i + shares.j < 1) lines.push_back({from, to, width, style.nobody, true});
   if (shares.i > 0)
-    lines.push_back({line.i, line.i + shares.i * along, line.width, colour(i), shares.i == 1});
-  if (shares.j > 0)
-    lines.push_back({line.j, line.j - shares.j * along, line.width, colour(*j), shares.j == 1});
+    lines.push_back({from, from + shares.i * along, width, colour(i), shares.i == 1});
+  if (shares.j > 0) lines.push_back({to, to - shares.j * along, width, colour(*j), shares.j == 1});
 }
 
 template <int D>
@@ -97,16 +81,15 @@ std::vector<Line> lines_of(const Grains& grains, const Frame<D>& frame, const Vi
     const double width = style.width_per_newton * force;
     const Vec2 margin = Vec2::Constant(width / 2);
     view.for_images(from.cwiseMin(to) - margin, from.cwiseMax(to) + margin, [&](const Vec2& shift) {
-      const Contact contact{from + shift, to + shift, width};
+      const Line whole{from + shift, to + shift, width, style.plain, true};
       if (style.rule)
-        add_shared(lines, contact, grains, frame, k, style);
+        add_shared(lines, whole, grains, frame, k, style);
       else
-        lines.push_back({contact.i, contact.j, width, style.plain, true});
+        lines.push_back(whole);
     });
   }
   // Strong contacts over weak ones.
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const Line& a, const Line& b) { return a.width < b.width; });
+  std::ranges::stable_sort(lines, {}, &Line::width);
   return lines;
 }
 

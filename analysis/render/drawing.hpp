@@ -18,6 +18,7 @@ struct Disc {
   Vec2 centre;
   double radius;
   Colour colour;
+  double order;  // the lowest is drawn first
 };
 
 /// A contact, or one grain's part of it. It begins at the centre of a grain, where it is round.

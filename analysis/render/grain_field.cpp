@@ -14,94 +14,40 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace grseg {
 namespace {
 
+constexpr TrajectoryReader::Fields nothing{.velocity = false, .contacts = false, .force = false};
 constexpr TrajectoryReader::Fields velocity{.velocity = true, .contacts = false, .force = false};
 constexpr TrajectoryReader::Fields contacts{.velocity = false, .contacts = true, .force = false};
 constexpr TrajectoryReader::Fields image{.velocity = false, .contacts = false, .force = true};
 
-/// The fields. To add one: a FieldKind, a row here, and its number.
+/// The fields. To add one: a FieldKind, a row here, and its numbers.
 constexpr FieldDefinition definitions[] = {
-    {.kind = FieldKind::radius,
-     .word = "radius",
-     .meaning = "radius of the grain",
-     .ends = FieldEnds::least_to_most,
-     .title = "radius",
-     .unit_2d = "m",
-     .unit_3d = "m"},
-    {.kind = FieldKind::speed,
-     .word = "speed",
-     .meaning = "modulus of the velocity",
-     .ends = FieldEnds::zero_to_most,
-     .title = "speed",
-     .unit_2d = "m/s",
-     .unit_3d = "m/s",
-     .needs = velocity},
-    {.kind = FieldKind::velocity,
-     .word = "velocity",
-     .meaning = "component of the velocity: x (default), y or z",
-     .ends = FieldEnds::both_signs,
-     .title = "velocity along",
-     .unit_2d = "m/s",
-     .unit_3d = "m/s",
-     .needs = velocity,
-     .argument = "AXIS"},
-    {.kind = FieldKind::spin,
-     .word = "spin",
-     .meaning = "angular velocity about z, counter-clockwise",
-     .ends = FieldEnds::both_signs,
-     .title = "spin",
-     .unit_2d = "rad/s",
-     .unit_3d = "rad/s",
-     .needs = velocity},
-    {.kind = FieldKind::pressure,
-     .word = "pressure",
-     .meaning = "the grain's share of trace(force x branch)/D summed over its contacts, over its "
-                "area or volume; mixed contacts by --partition",
-     .ends = FieldEnds::zero_to_most,
-     .title = "pressure",
-     .unit_2d = "N/m",
-     .unit_3d = "Pa",
-     .needs = contacts},
-    {.kind = FieldKind::contacts,
-     .word = "contacts",
-     .meaning = "number of its contacts that bear a force",
-     .ends = FieldEnds::zero_to_most,
-     .title = "contacts",
-     .unit_2d = "",
-     .unit_3d = "",
-     .needs = contacts},
-    {.kind = FieldKind::composition,
-     .word = "composition",
-     .meaning = "share of the largest species in the grains around, weighed by Lucy's function of "
-                "radius LENGTH (default: 2dL)",
-     .ends = FieldEnds::zero_to_one,
-     .title = "share of",
-     .unit_2d = "",
-     .unit_3d = "",
-     .argument = "LENGTH"},
-    {.kind = FieldKind::displacement,
-     .word = "displacement",
-     .meaning = "distance from where the grain was at TIME (s)",
-     .ends = FieldEnds::zero_to_most,
-     .title = "displacement since t =",
-     .unit_2d = "m",
-     .unit_3d = "m",
-     .needs = image,
-     .argument = "TIME",
-     .needs_argument = true},
-    {.kind = FieldKind::rise,
-     .word = "rise",
-     .meaning = "y minus what it was at TIME (s)",
-     .ends = FieldEnds::both_signs,
-     .title = "rise since t =",
-     .unit_2d = "m",
-     .unit_3d = "m",
-     .argument = "TIME",
-     .needs_argument = true},
+    {FieldKind::radius, "radius", "radius of the grain", FieldEnds::least_to_most, "radius", "m",
+     nothing},
+    {FieldKind::speed, "speed", "modulus of the velocity", FieldEnds::zero_to_most, "speed", "m/s",
+     velocity},
+    {FieldKind::velocity, "velocity", "component of the velocity: x (default), y or z",
+     FieldEnds::both_signs, "velocity along", "m/s", velocity, "AXIS"},
+    {FieldKind::spin, "spin", "angular velocity about z, counter-clockwise", FieldEnds::both_signs,
+     "spin", "rad/s", velocity},
+    {FieldKind::pressure, "pressure",
+     "the grain's share of trace(force x branch)/D summed over its contacts, over its area or "
+     "volume; mixed contacts by --partition",
+     FieldEnds::zero_to_most, "pressure", "N/m", contacts},
+    {FieldKind::contacts, "contacts", "number of its contacts that bear a force",
+     FieldEnds::zero_to_most, "contacts", "", contacts},
+    {FieldKind::composition, "composition",
+     "share of the largest species in the grains around, weighed by Lucy's function of radius "
+     "LENGTH (default: 2dL)",
+     FieldEnds::zero_to_one, "share of", "", nothing, "LENGTH"},
+    {FieldKind::displacement, "displacement", "distance from where the grain was at TIME (s)",
+     FieldEnds::zero_to_most, "displacement since t =", "m", image, "TIME", true},
+    {FieldKind::rise, "rise", "y minus what it was at TIME (s)", FieldEnds::both_signs,
+     "rise since t =", "m", nothing, "TIME", true},
 };
 
 constexpr const char* species_word = "species";
@@ -127,6 +73,118 @@ Eigen::Index axis_of(const std::string& text, int dimension)
   if (text == "z" && dimension == 3) return 2;
   throw UsageError(fmt::format("--color velocity:{}: the components of this run are {}", text,
                                dimension == 3 ? "x, y and z" : "x and y"));
+}
+
+/// The radius of the neighbourhood, m. Each grain must have one image at most beyond each end of a period.
+double radius_around(const std::string& length, const TrajectoryReader& run)
+{
+  const double radius =
+      parse_length(length, "--color composition:", {run.small_diameter(), run.large_diameter()});
+  if (!(radius > 0)) throw UsageError("--color composition: its radius must be positive");
+  const auto require = [&](bool periodic, double period, char axis) {
+    if (periodic && radius > period * (1 + 1e-9))  // 35dL may be a little more than 0.35 m
+      throw UsageError(fmt::format(
+          "--color composition:{}: {:.4g} m is longer than the period along {}, which is {:.4g} m",
+          length, radius, axis, period));
+  };
+  require(run.box().periodic_x, run.box().length_x, 'x');
+  require(run.box().periodic_z, run.box().length_z, 'z');
+  return radius;
+}
+
+/// Where the grain is, counting the periods that it has crossed. Rises need not know them.
+template <int D>
+Vector<D> place(const Frame<D>& frame, std::size_t grain, const Box& box)
+{
+  Vector<D> place = frame.position[grain];
+  if (frame.image.empty()) return place;
+  place.x() += box.length_x * frame.image[grain][0];
+  if constexpr (D == 3) place.z() += box.length_z * frame.image[grain][2];
+  return place;
+}
+
+/// Where all grains are when displacements begin to count.
+template <int D>
+std::vector<Vector<D>> places_at(const FieldChoice& choice, const TrajectoryReader& run)
+{
+  const auto asked = fmt::format("--color {}:{}", choice.definition->word, choice.argument);
+  const auto time = parse_number(choice.argument);
+  if (!time) throw UsageError(fmt::format("{}: '{}' is not a time", asked, choice.argument));
+  Frame<D> frame;
+  run.read(frame_nearest(run, *time, asked), frame, choice.definition->needs);
+  std::vector<Vector<D>> places;
+  for (std::size_t g = 0; g < frame.position.size(); ++g)
+    places.push_back(place(frame, g, run.box()));
+  return places;
+}
+
+double about_z(double spin)
+{
+  return spin;
+}
+double about_z(const Vec3& spin)
+{
+  return spin.z();
+}
+
+template <int D>
+using Values = std::function<std::vector<double>(const Frame<D>&)>;
+
+/// number(frame, g) of each mobile grain.
+template <int D, class Number>
+Values<D> of_each(const Grains& grains, const Number& number)
+{
+  return [&grains, number](const Frame<D>& frame) {
+    std::vector<double> all(grains.size(), no_number);
+    for (std::size_t g = 0; g < all.size(); ++g)
+      if (is_mobile(grains, frame, g)) all[g] = number(frame, g);
+    return all;
+  };
+}
+
+/// Of each mobile grain the sum over its contacts: parts(frame, k) is what contact k adds to either grain.
+template <int D, class Parts>
+Values<D> over_contacts(const Grains& grains, const Parts& parts)
+{
+  return [&grains, parts](const Frame<D>& frame) {
+    std::vector<double> sums(grains.size());
+    for (std::size_t k = 0; k < frame.contacts.size(); ++k) {
+      const auto [i, j] = partners(grains, frame, k);
+      const auto [of_i, of_j] = parts(frame, k);
+      sums[i] += of_i;
+      if (j) sums[*j] += of_j;
+    }
+    for (std::size_t g = 0; g < sums.size(); ++g)
+      if (!is_mobile(grains, frame, g)) sums[g] = no_number;
+    return sums;
+  };
+}
+
+template <int D>
+Values<D> pressures(const Grains& grains, const PartitionRule& rule)
+{
+  const auto traces = over_contacts<D>(grains, [&grains, rule](const Frame<D>& frame, auto k) {
+    const double trace = frame.contacts.force[k].dot(frame.contacts.branch[k]);
+    const auto shares = contact_shares(grains, frame, k, rule);
+    return std::pair(shares.i * trace, shares.j * trace);
+  });
+  return [&grains, traces](const Frame<D>& frame) {
+    auto all = traces(frame);
+    for (std::size_t g = 0; g < all.size(); ++g) all[g] /= D * grain_volume<D>(grains.radius[g]);
+    return all;
+  };
+}
+
+template <int D>
+Values<D> moved(const FieldChoice& choice, const TrajectoryReader& run, const Grains& grains)
+{
+  const bool rises = choice.definition->kind == FieldKind::rise;
+  if (!rises) require_images(run, choice.argument);
+  return of_each<D>(grains, [rises, box = run.box(), origin = places_at<D>(choice, run)](
+                                const Frame<D>& frame, std::size_t g) {
+    const Vector<D> way = place(frame, g, box) - origin[g];
+    return rises ? way.y() : way.norm();
+  });
 }
 
 }  // namespace
@@ -194,152 +252,53 @@ template <int D>
 GrainField<D>::GrainField(const FieldChoice& choice, const TrajectoryReader& run,
                           const Grains& grains, const SpeciesList& species,
                           const PartitionRule& rule)
-    : definition_(choice.definition),
-      grains_(grains),
-      box_(run.box()),
-      rule_(rule),
-      largest_(static_cast<Species>(species.size() - 1)),
-      title_(definition_->title)
+    : definition_(choice.definition), title_(definition_->title)
 {
-  const LengthUnits units{run.small_diameter(), run.large_diameter()};
+  std::string unit = definition_->unit;
+  const auto set = [&](const auto& number) { values_ = of_each<D>(grains, number); };
   switch (definition_->kind) {
-    case FieldKind::velocity:
-      axis_ = axis_of(choice.argument, D);
-      title_ += fmt::format(" {}", "xyz"[axis_]);
+    case FieldKind::radius:
+      set([&grains](const Frame<D>&, auto g) { return grains.radius[g]; });
+      break;
+    case FieldKind::speed:
+      set([](const Frame<D>& frame, auto g) { return frame.velocity[g].norm(); });
+      break;
+    case FieldKind::velocity: {
+      const auto axis = axis_of(choice.argument, D);
+      title_ += fmt::format(" {}", "xyz"[axis]);
+      set([axis](const Frame<D>& frame, auto g) { return frame.velocity[g][axis]; });
+      break;
+    }
+    case FieldKind::spin:
+      set([](const Frame<D>& frame, auto g) { return about_z(frame.angular_velocity[g]); });
       break;
     case FieldKind::pressure:
-      title_ += fmt::format(" (rule: {})", rule_.name());
+      title_ += fmt::format(" (rule: {})", rule.name());
+      if (D == 3) unit = "Pa";
+      values_ = pressures<D>(grains, rule);
+      break;
+    case FieldKind::contacts:
+      values_ = over_contacts<D>(grains, [](const Frame<D>& frame, auto k) {
+        const double counts = bears_force(frame.contacts, k) ? 1 : 0;
+        return std::pair(counts, counts);
+      });
       break;
     case FieldKind::composition: {
       const auto length = choice.argument.empty() ? std::string("2dL") : choice.argument;
-      radius_ = parse_length(length, "--color composition:", units);
-      if (!(radius_ > 0)) throw UsageError("--color composition: its radius must be positive");
-      require_within_periods(length);
       title_ += fmt::format(" {} within {}", species.back().name, length);
+      values_ = [&grains, box = run.box(), radius = radius_around(length, run),
+                 largest = static_cast<Species>(species.size() - 1)](const Frame<D>& frame) {
+        return local_composition<D>(grains, frame, box, largest, radius);
+      };
       break;
     }
     case FieldKind::displacement:
-      require_images(run, choice.argument);
-      begin_at(choice.argument, run);
-      break;
     case FieldKind::rise:
-      begin_at(choice.argument, run);
-      break;
-    default:
+      title_ += fmt::format(" {} s", choice.argument);
+      values_ = moved<D>(choice, run, grains);
       break;
   }
-  const std::string unit = D == 3 ? definition_->unit_3d : definition_->unit_2d;
   if (!unit.empty()) title_ += fmt::format(", {}", unit);
-}
-
-/// Each grain then has one image at most beyond each end of a period.
-template <int D>
-void GrainField<D>::require_within_periods(const std::string& length) const
-{
-  const auto require = [&](bool periodic, double period, char axis) {
-    if (periodic && radius_ > period * (1 + 1e-9))  // 35dL may be a little more than 0.35 m
-      throw UsageError(fmt::format(
-          "--color composition:{}: {:.4g} m is longer than the period along {}, which is {:.4g} m",
-          length, radius_, axis, period));
-  };
-  require(box_.periodic_x, box_.length_x, 'x');
-  require(D == 3 && box_.periodic_z, box_.length_z, 'z');
-}
-
-template <int D>
-void GrainField<D>::begin_at(const std::string& time, const TrajectoryReader& run)
-{
-  const auto asked = fmt::format("--color {}:{}", definition_->word, time);
-  const auto number = parse_number(time);
-  if (!number) throw UsageError(fmt::format("{}: '{}' is not a time", asked, time));
-  const auto index = frame_nearest(run, *number, asked);
-  Frame<D> frame;
-  run.read(index, frame, definition_->needs);
-  for (std::size_t g = 0; g < grains_.size(); ++g) origin_.push_back(place(frame, g));
-  title_ += fmt::format(" {} s", time);
-}
-
-/// Where the grain is, counting the periods that it has crossed. Rises need not know them.
-template <int D>
-Vector<D> GrainField<D>::place(const Frame<D>& frame, std::size_t grain) const
-{
-  Vector<D> place = frame.position[grain];
-  if (frame.image.empty()) return place;
-  place.x() += box_.length_x * frame.image[grain][0];
-  if constexpr (D == 3) place.z() += box_.length_z * frame.image[grain][2];
-  return place;
-}
-
-template <int D>
-double GrainField<D>::number(const Frame<D>& frame, std::size_t grain) const
-{
-  switch (definition_->kind) {
-    case FieldKind::radius:
-      return grains_.radius[grain];
-    case FieldKind::speed:
-      return frame.velocity[grain].norm();
-    case FieldKind::velocity:
-      return frame.velocity[grain][axis_];
-    case FieldKind::spin:
-      if constexpr (D == 2)
-        return frame.angular_velocity[grain];
-      else
-        return frame.angular_velocity[grain].z();
-    case FieldKind::displacement:
-      return (place(frame, grain) - origin_[grain]).norm();
-    case FieldKind::rise:
-      return frame.position[grain].y() - origin_[grain].y();
-    default:
-      return no_number;
-  }
-}
-
-template <int D>
-std::vector<double> GrainField<D>::pressures(const Frame<D>& frame) const
-{
-  std::vector<double> sums(grains_.size());
-  const auto& list = frame.contacts;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const double trace = list.force[k].dot(list.branch[k]);
-    const auto [i, j] = partners(grains_, frame, k);
-    const auto shares = contact_shares(grains_, frame, k, rule_);
-    sums[i] += shares.i * trace;
-    if (j) sums[*j] += shares.j * trace;
-  }
-  for (std::size_t g = 0; g < sums.size(); ++g) sums[g] /= D * grain_volume<D>(grains_.radius[g]);
-  return sums;
-}
-
-template <int D>
-std::vector<double> GrainField<D>::contact_numbers(const Frame<D>& frame) const
-{
-  std::vector<double> numbers(grains_.size());
-  for (std::size_t k = 0; k < frame.contacts.size(); ++k) {
-    if (!bears_force(frame.contacts, k)) continue;
-    const auto [i, j] = partners(grains_, frame, k);
-    numbers[i] += 1;
-    if (j) numbers[*j] += 1;
-  }
-  return numbers;
-}
-
-template <int D>
-std::vector<double> GrainField<D>::values(const Frame<D>& frame) const
-{
-  const auto kind = definition_->kind;
-  std::vector<double> all(grains_.size(), no_number);
-  if (kind == FieldKind::composition)
-    return local_composition<D>(grains_, frame, box_, largest_, radius_);
-  if (kind == FieldKind::pressure) all = pressures(frame);
-  if (kind == FieldKind::contacts) all = contact_numbers(frame);
-  const bool summed = kind == FieldKind::pressure || kind == FieldKind::contacts;
-  for (std::size_t g = 0; g < all.size(); ++g) {
-    if (!is_mobile(grains_, frame, g))
-      all[g] = no_number;
-    else if (!summed)
-      all[g] = number(frame, g);
-  }
-  return all;
 }
 
 template class GrainField<2>;

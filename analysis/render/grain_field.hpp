@@ -7,6 +7,7 @@
 #include "formats/trajectory/reader.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,10 +40,10 @@ struct FieldDefinition {
   const char* word;  // as typed
   const char* meaning;
   FieldEnds ends;
-  const char* title;              // beside the colour bar
-  const char *unit_2d, *unit_3d;  // "": a number
+  const char* title;  // beside the colour bar
+  const char* unit;   // in two dimensions; "": a number
   /// What must be read: `force` stands for how often grains have crossed the cell.
-  TrajectoryReader::Fields needs = {.velocity = false, .contacts = false, .force = false};
+  TrajectoryReader::Fields needs;
   /// What may follow the word behind a colon, or must; "": nothing.
   const char* argument = "";
   bool needs_argument = false;
@@ -79,25 +80,12 @@ class GrainField {
   /// For the colour bar: what it is, with its unit.
   const std::string& title() const { return title_; }
   /// A number for each grain; NaN for boundary grains and those that are absent.
-  std::vector<double> values(const Frame<D>& frame) const;
+  std::vector<double> values(const Frame<D>& frame) const { return values_(frame); }
 
  private:
-  double number(const Frame<D>& frame, std::size_t grain) const;
-  std::vector<double> pressures(const Frame<D>& frame) const;
-  std::vector<double> contact_numbers(const Frame<D>& frame) const;
-  Vector<D> place(const Frame<D>& frame, std::size_t grain) const;
-  void require_within_periods(const std::string& length) const;
-  void begin_at(const std::string& time, const TrajectoryReader& run);
-
   const FieldDefinition* definition_;
-  const Grains& grains_;
-  Box box_;
-  PartitionRule rule_;
-  Species largest_;
   std::string title_;
-  Eigen::Index axis_ = 0;          // of the velocity
-  double radius_ = 0;              // m, of the local composition
-  std::vector<Vector<D>> origin_;  // m, where grains were when displacements begin to count
+  std::function<std::vector<double>(const Frame<D>&)> values_;
 };
 
 /// The number of the frame whose time is nearest to `time` (s). UsageError naming `option` where

@@ -23,6 +23,8 @@ struct Image {
   Strip strip;
   Vector<D> centre;
   std::size_t grain;
+
+  auto key() const { return std::make_tuple(strip, centre.x()); }
 };
 
 /// Mobile grains and those of their images that lie within a radius of the cell, by strips along x,
@@ -37,9 +39,7 @@ class NearGrains {
     images_.reserve(grains.size());
     for (std::size_t g = 0; g < grains.size(); ++g)
       if (is_mobile(grains, frame, g)) add(frame.position[g], g, box);
-    std::sort(images_.begin(), images_.end(), [](const Image<D>& a, const Image<D>& b) {
-      return std::make_tuple(a.strip, a.centre.x()) < std::make_tuple(b.strip, b.centre.x());
-    });
+    std::ranges::sort(images_, {}, &Image<D>::key);
   }
 
   /// Calls book(grain, distance) for each that is nearer to `centre` than the radius.
@@ -78,14 +78,10 @@ class NearGrains {
   template <class Book>
   void visit_strip(const Strip& strip, const Vector<D>& centre, const Book& book) const
   {
-    const auto first = std::lower_bound(
-        images_.begin(), images_.end(), std::make_tuple(strip, centre.x() - radius_),
-        [](const Image<D>& near, const std::tuple<Strip, double>& from) {
-          return std::make_tuple(near.strip, near.centre.x()) < from;
-        });
-    for (auto near = first;
-         near != images_.end() && near->strip == strip && near->centre.x() <= centre.x() + radius_;
-         ++near) {
+    auto near = std::ranges::lower_bound(images_, std::make_tuple(strip, centre.x() - radius_), {},
+                                         &Image<D>::key);
+    const auto last = std::make_tuple(strip, centre.x() + radius_);
+    for (; near != images_.end() && near->key() <= last; ++near) {
       const double squared = (near->centre - centre).squaredNorm();
       if (squared < radius_ * radius_) book(near->grain, std::sqrt(squared));
     }

@@ -31,21 +31,12 @@ int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& fra
 {
   const auto& times = run.times();
   double between = times.back() - times.front();
-  if (frames.size() > 1) {
-    for (std::size_t k = 1; k < frames.size(); ++k)
-      if (const double apart = std::abs(times[frames[k]] - times[frames[k - 1]]); apart > 0)
-        between = std::min(between, apart);
-  } else if (times.size() > 1) {
-    between /= static_cast<double>(times.size() - 1);
-  }
+  if (frames.size() < 2) between /= static_cast<double>(times.size() - 1);
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    if (const double apart = std::abs(times[frames[k]] - times[frames[k - 1]]); apart > 0)
+      between = std::min(between, apart);
   if (!(between > 0)) return 2;
   return std::clamp(static_cast<int>(std::ceil(-std::log10(between) - 0.01)), 0, 6);
-}
-
-/// Angle by which a picture is turned so that this vector points down the page, rad.
-double angle_to_down(const Vec2& vector)
-{
-  return -std::atan2(vector.x(), -vector.y());
 }
 
 }  // namespace
@@ -57,7 +48,7 @@ Picture<D>::Picture(const TrajectoryReader& run, const GroupedGrains& grains,
     : run_(run),
       grains_(grains),
       settings_(settings),
-      theme_(theme_of(settings.theme)),
+      theme_(settings_.theme),
       field_(field_of<D>(settings, run, grains)),
       survey_(survey_frames<D>(run, frames, grains.grains, field_)),
       view_(settings.plane, run.box())
@@ -110,7 +101,7 @@ void Picture<D>::choose_grain_colours()
   colours.boundary = pale(theme_.boundary);
   const std::size_t count = grains_.species.size();
   for (std::size_t k = 0; k < count; ++k)
-    colours.of_species.push_back(pale(species_colour(k, count)));
+    colours.of_species.push_back(pale(species_colours(k, count).grain));
   if (!field_) return;
   const auto ends = field_->definition().ends;
   ColourScale scale;
@@ -133,7 +124,8 @@ void Picture<D>::choose_lines()
   if (strong_force_ > 0) lines.width_per_newton = settings_.line_width / strong_force_;
   if (settings_.split_lines) lines.rule = settings_.rule;
   const std::size_t count = grains_.species.size();
-  for (std::size_t k = 0; k < count; ++k) lines.of_species.push_back(species_line_colour(k, count));
+  for (std::size_t k = 0; k < count; ++k)
+    lines.of_species.push_back(species_colours(k, count).line);
   lines.plain = theme_.ink;
   lines.nobody = mix(theme_.ink, theme_.background, 0.4);
   style_.lines = lines;
@@ -142,7 +134,7 @@ void Picture<D>::choose_lines()
 template <int D>
 double Picture<D>::angle(const Vec2& gravity) const
 {
-  return settings_.tilt ? angle_to_down(gravity) : 0;
+  return settings_.tilt ? -std::atan2(gravity.x(), -gravity.y()) : 0;
 }
 
 template <int D>
@@ -150,7 +142,7 @@ void Picture<D>::lay_out_page(std::size_t panels)
 {
   PageContent content;
   content.panels = panels;
-  content.titles = settings_.with_time;
+  content.titles = !settings_.no_time;
   for (const double time : survey_.times)
     content.panel = content.panel.cwiseMax(
         turned_size(view_.region, angle(view_.flat<D>(run_.gravity<D>().at(time)))));
@@ -177,7 +169,7 @@ std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, doub
   const Canvas canvas(surface.get(), settings_.em);
   const auto& ink = theme_.ink;
   std::vector<LegendItem> items;
-  if (settings_.with_scale) {
+  if (!settings_.no_scale) {
     items.push_back(scale_bar(canvas, scale, std::min(panel.x() / 4, 12 * settings_.em), ink));
     if (shows_gravity_) {
       const Projection turn(view_.region, Vec2::Zero(), 1, angle(gravity));
@@ -185,7 +177,7 @@ std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, doub
     }
     if (const auto text = slab_text(); !text.empty()) items.push_back(remark(canvas, text, ink));
   }
-  if (!settings_.with_bar) return items;
+  if (settings_.no_bar) return items;
   if (field_) {
     items.push_back(
         colour_bar(canvas, *style_.grains.scale, field_->title(), width - 2 * settings_.em, ink));
@@ -211,16 +203,6 @@ std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, doub
 }
 
 template <int D>
-TrajectoryReader::Fields Picture<D>::needs() const
-{
-  TrajectoryReader::Fields needs{.velocity = false, .contacts = true, .force = false};
-  if (!field_) return needs;
-  needs.velocity = field_->definition().needs.velocity;
-  needs.force = field_->definition().needs.force;
-  return needs;
-}
-
-template <int D>
 Drawing Picture<D>::draw(const Frame<D>& frame) const
 {
   const auto values = field_ ? field_->values(frame) : std::vector<double>{};
@@ -239,7 +221,7 @@ void Picture<D>::paint(cairo_surface_t* surface, std::span<const Drawing> drawin
     const Projection to_page(view_.region, page_.panels[k] + page_.panel_size / 2, page_.scale,
                              angle(drawing.gravity));
     paint_panel(canvas, drawing, view_, to_page, theme_, D == 3);
-    if (settings_.with_time)
+    if (!settings_.no_time)
       // Adding 0 makes a positive one of a negative one.
       canvas.text(
           page_.panels[k] - Vec2(0, 0.6 * settings_.em),

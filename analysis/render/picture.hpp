@@ -32,8 +32,8 @@ struct PictureSettings {
   Plane plane = Plane::xy;
   bool project = false;  // all of the depth instead of a slice
   bool tilt = false;     // gravity points down the page
-  ThemeName theme = ThemeName::light;
-  bool with_time = true, with_scale = true, with_bar = true;
+  Theme theme = themes[0].value;
+  bool no_time = false, no_scale = false, no_bar = false;
   bool is_film = false;
   std::optional<double> width;  // px
   double em = 18;               // px
@@ -43,15 +43,15 @@ struct PictureSettings {
 template <int D>
 class Picture {
  public:
-  /// `frames`: numbers of those that will be drawn, of which `panels` go on one page. UsageError where a setting does not fit the run. Both run and grains must outlive
-  /// this.
+  /// `frames`: numbers of those that will be drawn, of which `panels` go on one page. UsageError where
+  /// a setting does not fit the run. Both run and grains must outlive this.
   Picture(const TrajectoryReader& run, const GroupedGrains& grains,
           const std::vector<std::size_t>& frames, std::size_t panels,
           const PictureSettings& settings);
 
   const Page& page() const { return page_; }
   /// What of a frame `draw` needs.
-  TrajectoryReader::Fields needs() const;
+  TrajectoryReader::Fields needs() const { return survey_.needs; }
   /// What a frame shows. Several threads may call it at once.
   Drawing draw(const Frame<D>& frame) const;
   /// Paints as many drawings as there are panels.
@@ -65,12 +65,13 @@ class Picture {
   std::vector<LegendItem> legend(double scale, const Vec2& panel, double width,
                                  const Vec2& gravity) const;
   std::string slab_text() const;
+  /// By which a picture with this gravity is turned, rad.
   double angle(const Vec2& gravity) const;
 
   const TrajectoryReader& run_;
   const GroupedGrains& grains_;
   PictureSettings settings_;
-  const Theme& theme_;
+  const Theme& theme_;  // of settings_
   std::optional<GrainField<D>> field_;
   Survey<D> survey_;
   View view_;

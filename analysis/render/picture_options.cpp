@@ -51,7 +51,7 @@ void PictureOptions::add_to(po::options_description& options)
   add("range", text(range, "a:b"),
       "numbers of the first and the last colour (default: round numbers that leave out the last "
       "hundredth)");
-  add("forces", po::bool_switch(&forces),
+  add("forces", po::bool_switch(&plain.forces),
       "draw contacts as lines between the grains' centres, as wide as their normal force");
   add("force-width", text(force_width, "LENGTH"),
       "width that 99 of 100 lines do not exceed, counted over up to 16 of the frames");
@@ -60,56 +60,48 @@ void PictureOptions::add_to(po::options_description& options)
        "the rule divides them; with --color pressure: which part of them counts; " +
        list_of_rules() + " (default of pressure: size)")
           .c_str());
-  add("region", text(region, "x0:x1,y0:y1"),
+  add("region", text(plain.region, "x0:x1,y0:y1"),
       "what is shown, in lengths such as 10dS; beyond a period the cell is repeated (default: all)");
   add("plane", word_option(&plane, words_of(planes)),
       ("in three dimensions: axis to the right and axis up the page, " + list_of(planes)).c_str());
-  add("slice", text(slice, "z0:z1"),
+  add("slice", text(plain.slice, "z0:z1"),
       "in three dimensions: only grains whose centres lie there along the third axis (default: as "
       "thick as the largest grain, in the middle)");
-  add("project", po::bool_switch(&project),
+  add("project", po::bool_switch(&plain.project),
       "in three dimensions: all grains, the nearest in front");
-  add("tilt", po::bool_switch(&tilt),
+  add("tilt", po::bool_switch(&plain.tilt),
       "turn the picture so that gravity points down the page (default: x points to the right)");
-  add("theme", word_option(&theme, words_of(theme_names)), list_of(theme_names).c_str());
+  add("theme", word_option(&theme, words_of(themes)), list_of(themes).c_str());
   add("width", text(width, "N"),
       "width in pixels, or on paper, 86mm, 8.6cm or 3.4in, with letters of 8 points (default: 1280 "
       "pixels, less where the picture would be higher than that)");
-  add("no-time", po::bool_switch(&no_time), "leave out the time");
-  add("no-scale", po::bool_switch(&no_scale),
+  add("no-time", po::bool_switch(&plain.no_time), "leave out the time");
+  add("no-scale", po::bool_switch(&plain.no_scale),
       "leave out the scale bar, the direction of gravity and the slice");
-  add("no-bar", po::bool_switch(&no_bar), "leave out what colours and lines mean");
+  add("no-bar", po::bool_switch(&plain.no_bar), "leave out what colours and lines mean");
 }
 
 PictureSettings PictureOptions::settings(const TrajectoryReader& run) const
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
-  PictureSettings s;
+  auto s = plain;
   s.field = parse_field(color);
   if (!range.empty()) {
     if (s.field.is_species()) throw UsageError("--range: species have no range; choose a --color");
     s.range = parse_range(range);
   }
-  s.forces = forces;
-  if (forces) s.line_width = parse_length(force_width, "--force-width", units);
-  if (forces && !(s.line_width > 0)) throw UsageError("--force-width must be positive");
+  if (s.forces) s.line_width = parse_length(force_width, "--force-width", units);
+  if (s.forces && !(s.line_width > 0)) throw UsageError("--force-width must be positive");
   if (!partition.empty()) {
     s.rule = parse_rule(partition);
     const bool of_pressure = s.field.definition && s.field.definition->kind == FieldKind::pressure;
-    if (!forces && !of_pressure)
+    if (!s.forces && !of_pressure)
       throw UsageError("--partition needs --forces, whose lines it splits, or --color pressure");
-    s.split_lines = forces;
+    s.split_lines = s.forces;
   }
-  s.region = region;
   s.plane = choose(plane, "--plane", planes);
-  s.slice = slice;
-  s.project = project;
-  if (project && !slice.empty()) throw UsageError("--project and --slice exclude each other");
-  s.tilt = tilt;
-  s.theme = choose(theme, "--theme", theme_names);
-  s.with_time = !no_time;
-  s.with_scale = !no_scale;
-  s.with_bar = !no_bar;
+  if (s.project && !s.slice.empty()) throw UsageError("--project and --slice exclude each other");
+  s.theme = choose(theme, "--theme", themes);
   const auto page = parse_width(width);
   s.width = page.pixels;
   s.em = page.em;

@@ -15,10 +15,9 @@ namespace grseg {
 /// What the command line says about pictures.
 struct PictureOptions {
   std::vector<std::string> at;
-  std::string color = "species", range, partition, force_width = "0.6dS", region, plane = "xy",
-              slice, theme = "light", width;
-  bool forces = false, project = false, tilt = false;
-  bool no_time = false, no_scale = false, no_bar = false;
+  std::string color = "species", range, partition, force_width = "0.6dS", plane = "xy",
+              theme = "light", width;
+  PictureSettings plain;  // what is meant as it is typed
 
   void add_to(po::options_description& options);
 

@@ -25,37 +25,31 @@ namespace {
 
 constexpr int patience = 50;  // ms, until an interruption is noticed
 
-/// What posix_spawn is to do between fork and exec.
-class SpawnSettings {
- public:
-  SpawnSettings(int input, int errors)
-  {
-    posix_spawn_file_actions_init(&files_);
-    posix_spawn_file_actions_adddup2(&files_, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files_, errors, STDERR_FILENO);
-    posix_spawnattr_init(&attributes_);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes_, &defaults);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-  ~SpawnSettings()
-  {
-    posix_spawn_file_actions_destroy(&files_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-
-  const posix_spawn_file_actions_t* files() const { return &files_; }
-  const posix_spawnattr_t* attributes() const { return &attributes_; }
-
- private:
-  posix_spawn_file_actions_t files_{};
-  posix_spawnattr_t attributes_{};
-};
+/// Starts the program words[0] with these ends of its standard input and error; 0, or what went wrong as in errno.
+int spawn(pid_t& process, std::vector<std::string> words, int input, int errors)
+{
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const int error =
+      posix_spawn(&process, pointers[0], &files, &attributes, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return error;
+}
 
 }  // namespace
 
@@ -85,13 +79,7 @@ PipedProgram::PipedProgram(const std::string& path, const std::vector<std::strin
   std::signal(SIGPIPE, SIG_IGN);
   std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  const SpawnSettings settings(ends[0], fileno(errors_.get()));
-  const int error = posix_spawn(&process_, path.c_str(), settings.files(), settings.attributes(),
-                                pointers.data(), environ);
+  const int error = spawn(process_, words, ends[0], fileno(errors_.get()));
   close(ends[0]);
   pipe_ = ends[1];
   if (error == 0) return;
@@ -139,15 +127,12 @@ PipedProgram::End PipedProgram::finish()
 {
   close(pipe_);
   pipe_ = -1;
-  End end{};
-  for (auto code = ended(false);; code = ended(false)) {
-    if (code) {
-      end.code = *code;
-      break;
-    }
+  std::optional<int> code;
+  while (!(code = ended(false))) {
     stop_if_interrupted();
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  End end{*code, {}};
   std::rewind(errors_.get());
   char buffer[4096];
   for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, errors_.get())) > 0;)

@@ -41,13 +41,12 @@ Survey<D> survey_frames(const TrajectoryReader& run, const std::vector<std::size
   survey.low = Vector<D>::Constant(std::numeric_limits<double>::infinity());
   survey.high = -survey.low;
   Frame<D> frame;
-  TrajectoryReader::Fields needs{.velocity = false, .contacts = true, .force = false};
   if (field) {
-    needs.velocity = field->definition().needs.velocity;
-    needs.force = field->definition().needs.force;
+    survey.needs.velocity = field->definition().needs.velocity;
+    survey.needs.force = field->definition().needs.force;
   }
   for (const auto index : evenly_spread(frames)) {
-    run.read(index, frame, needs);
+    run.read(index, frame, survey.needs);
     survey.times.push_back(frame.time);
     survey.walls.add(frame);
     for (std::size_t g = 0; g < grains.size(); ++g) {

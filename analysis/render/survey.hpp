@@ -23,6 +23,8 @@ struct Survey {
   std::vector<double> values;   // of the field, without order
   Walls<D> walls;
   std::vector<double> times;  // s, of the frames
+  /// What of a frame is read for a picture.
+  TrajectoryReader::Fields needs{.velocity = false, .contacts = true, .force = false};
 };
 
 /// `frames` are numbers of the run's frames, at least one.

@@ -10,23 +10,6 @@ namespace {
 
 constexpr double most_periods = 20;
 
-struct Axes {
-  Eigen::Index right, up, depth;
-  double towards;
-};
-
-Axes axes_of(Plane plane)
-{
-  switch (plane) {
-    case Plane::zy:
-      return {2, 1, 0, -1};
-    case Plane::zx:
-      return {2, 0, 1, 1};
-    default:
-      return {0, 1, 2, 1};
-  }
-}
-
 double period_along(Eigen::Index axis, const Box& box)
 {
   if (axis == 0 && box.periodic_x) return box.length_x;
@@ -58,14 +41,13 @@ Range parse_span(const std::string& text, const Range& otherwise, const std::str
 }  // namespace
 
 View::View(Plane plane, const Box& box)
+    : right_(plane == Plane::xy ? 0 : 2),
+      up_(plane == Plane::zx ? 0 : 1),
+      depth_(3 - right_ - up_),
+      towards_(plane == Plane::zy ? -1 : 1),
+      period_{period_along(right_, box), period_along(up_, box)},
+      depth_period_(period_along(depth_, box))
 {
-  const auto [right, up, depth, towards] = axes_of(plane);
-  right_ = right;
-  up_ = up;
-  depth_ = depth;
-  towards_ = towards;
-  period_ = {period_along(right, box), period_along(up, box)};
-  depth_period_ = box.dimension == 3 ? period_along(depth, box) : 0;
 }
 
 template <int D>
@@ -74,9 +56,7 @@ std::optional<double> View::nearness(const Vector<D>& position) const
   if constexpr (D == 2) return 0;
   double place = position[depth_ % D];
   if (slab) {
-    if (depth_period_ > 0) {
-      place -= depth_period_ * std::floor((place - slab->low) / depth_period_);
-    }
+    if (depth_period_ > 0) place -= depth_period_ * std::floor((place - slab->low) / depth_period_);
     if (!(place >= slab->low && place <= slab->high)) return std::nullopt;
   }
   return towards_ * place;

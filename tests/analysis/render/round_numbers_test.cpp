@@ -113,15 +113,15 @@ TEST(Colours, ViridisIsMatplotlibsWithinThreeSteps)
 
 TEST(Colours, SmallAndLargeAreThoseOfOkabeAndIto)
 {
-  EXPECT_EQ(species_colour(0, 2), rgb(0x56b4e9));
-  EXPECT_EQ(species_colour(1, 2), rgb(0xd55e00));
+  EXPECT_EQ(species_colours(0, 2).grain, rgb(0x56b4e9));
+  EXPECT_EQ(species_colours(1, 2).grain, rgb(0xd55e00));
 }
 
 TEST(Colours, ManySpeciesAllDiffer)
 {
   for (std::size_t a = 0; a < 12; ++a)
     for (std::size_t b = 0; b < a; ++b)
-      EXPECT_FALSE(species_colour(a, 12) == species_colour(b, 12)) << a << ' ' << b;
+      EXPECT_FALSE(species_colours(a, 12).grain == species_colours(b, 12).grain) << a << ' ' << b;
 }
 
 TEST(Colours, AScaleGoesFromEndToEndOfItsRange)
