@@ -5,10 +5,10 @@
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+#include <fmt/format.h>
 #include <libdeflate.h>
 
 #include <bit>
-#include <cstring>
 #include <memory>
 
 namespace grseg {
@@ -28,63 +28,32 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes)
   return packed;
 }
 
-std::string in_base64(std::vector<std::uint8_t> bytes)
+}  // namespace
+
+void BinaryArrays::add(const std::string& name, char kind, std::size_t size, const void* numbers,
+                       std::size_t count)
+{
+  static_assert(std::endian::native == std::endian::little);
+  const auto begin = bytes_.size();
+  directory_[name] = {
+      {"type", fmt::format("{}{}", kind, 8 * size)}, {"offset", begin}, {"length", count}};
+  bytes_.resize(begin + count * size);
+  const auto* from = static_cast<const std::uint8_t*>(numbers);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t b = 0; b < size; ++b) bytes_[begin + b * count + k] = *from++;
+}
+
+std::string BinaryArrays::base64() const
 {
   using namespace boost::archive::iterators;
   using Iterator =
       base64_from_binary<transform_width<std::vector<std::uint8_t>::const_iterator, 6, 8>>;
+  auto bytes = deflated(bytes_);
   const auto missing = (3 - bytes.size() % 3) % 3;  // up to whole groups of three bytes
   bytes.insert(bytes.end(), missing, 0);
   std::string text(Iterator(bytes.cbegin()), Iterator(bytes.cend()));
   text.replace(text.size() - missing, missing, missing, '=');
   return text;
-}
-
-}  // namespace
-
-template <class Number>
-void BinaryArrays::append(const std::string& name, const char* type,
-                          const std::vector<Number>& values)
-{
-  static_assert(std::endian::native == std::endian::little);
-  directory_[name] = {{"type", type}, {"offset", bytes_.size()}, {"length", values.size()}};
-  const auto begin = bytes_.size(), count = values.size();
-  bytes_.resize(begin + count * sizeof(Number));
-  for (std::size_t k = 0; k < count; ++k) {
-    std::uint8_t of_number[sizeof(Number)];
-    std::memcpy(of_number, &values[k], sizeof(Number));
-    for (std::size_t b = 0; b < sizeof(Number); ++b) bytes_[begin + b * count + k] = of_number[b];
-  }
-}
-
-void BinaryArrays::add(const std::string& name, const std::vector<std::uint8_t>& values)
-{
-  append(name, "u8", values);
-}
-void BinaryArrays::add(const std::string& name, const std::vector<std::int8_t>& values)
-{
-  append(name, "i8", values);
-}
-void BinaryArrays::add(const std::string& name, const std::vector<std::uint16_t>& values)
-{
-  append(name, "u16", values);
-}
-void BinaryArrays::add(const std::string& name, const std::vector<std::uint32_t>& values)
-{
-  append(name, "u32", values);
-}
-void BinaryArrays::add(const std::string& name, const std::vector<float>& values)
-{
-  append(name, "f32", values);
-}
-void BinaryArrays::add(const std::string& name, const std::vector<double>& values)
-{
-  append(name, "f64", values);
-}
-
-std::string BinaryArrays::base64() const
-{
-  return in_base64(deflated(bytes_));
 }
 
 }  // namespace grseg

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace grseg {
@@ -15,12 +16,14 @@ namespace grseg {
 /// next ones, and so on: so they compress better.
 class BinaryArrays {
  public:
-  void add(const std::string& name, const std::vector<std::uint8_t>& values);
-  void add(const std::string& name, const std::vector<std::int8_t>& values);
-  void add(const std::string& name, const std::vector<std::uint16_t>& values);
-  void add(const std::string& name, const std::vector<std::uint32_t>& values);
-  void add(const std::string& name, const std::vector<float>& values);
-  void add(const std::string& name, const std::vector<double>& values);
+  /// Numbers without sign of 8, 16 or 32 bits, floats and doubles.
+  template <class Number>
+  void add(const std::string& name, const std::vector<Number>& values)
+  {
+    static_assert(std::is_floating_point_v<Number> || std::is_unsigned_v<Number>);
+    add(name, std::is_floating_point_v<Number> ? 'f' : 'u', sizeof(Number), values.data(),
+        values.size());
+  }
 
   /// {"x": {"type": "u16", "offset": 0, "length": 12}, ...}: offset in bytes, length in numbers.
   const nlohmann::ordered_json& directory() const { return directory_; }
@@ -28,8 +31,8 @@ class BinaryArrays {
   std::string base64() const;
 
  private:
-  template <class Number>
-  void append(const std::string& name, const char* type, const std::vector<Number>& values);
+  void add(const std::string& name, char kind, std::size_t size, const void* numbers,
+           std::size_t count);
 
   nlohmann::ordered_json directory_ = nlohmann::ordered_json::object();
   std::vector<std::uint8_t> bytes_;

@@ -9,16 +9,10 @@ namespace grseg {
 
 std::string json_for_page(const nlohmann::ordered_json& json)
 {
-  const auto text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
-  return safe;
+  auto text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  for (auto at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");
+  return text;
 }
 
 std::string page_of(const nlohmann::ordered_json& content, const std::vector<std::string>& arrays)

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -39,50 +40,27 @@ std::vector<PartitionRule> rules_to_read(std::vector<PartitionRule> rules)
   return rules;
 }
 
-template <class Of>
-std::vector<double> list(const std::vector<FitPoint>& points, const Of& of)
-{
-  std::vector<double> all;
-  all.reserve(points.size());
-  for (const auto& point : points) all.push_back(of(point));
-  return all;
-}
-
-void add_stresses(const FitData& data, const FitSettings& settings, const std::string& prefix,
-                  BinaryArrays& arrays)
-{
-  for (const auto& [name, rule] : given_rules) {
-    const auto points = fit_points(data, rule, settings);
-    const auto own = prefix + name;
-    const auto add = [&](const char* what, double FitPoint::*value) {
-      arrays.add(own + what, list(points, [&](const FitPoint& p) { return p.*value; }));
-    };
-    add("_small", &FitPoint::small);
-    add("_large", &FitPoint::large);
-    if (!rule.adds_up()) add("_total", &FitPoint::total);
-  }
-}
-
 void add_points(const FitData& data, const FitSettings& settings, const std::string& prefix,
                 BinaryArrays& arrays)
 {
+  const auto add = [&](const std::string& name, const auto& all, const auto& of) {
+    std::vector<double> values(all.size());
+    std::ranges::transform(all, values.begin(), of);
+    arrays.add(prefix + name, values);
+  };
   const auto points = fit_points(data, given_rules[0].rule, settings);
-  const auto add = [&](const char* name, const auto& of) {
-    arrays.add(prefix + name, list(points, of));
-  };
-  add("phi_large", [](const FitPoint& p) { return p.phi_large; });
-  add("frames", [](const FitPoint& p) { return p.frames; });
-  add("window", [](const FitPoint& p) { return static_cast<double>(p.window); });
-  const auto add_key = [&](const char* name, double LayerKey::*value) {
-    std::vector<double> all;
-    all.reserve(data.samples.size());
-    for (const auto& sample : data.samples) all.push_back(sample.key.*value);
-    arrays.add(prefix + name, all);
-  };
-  add_key("begin", &LayerKey::begin);
-  add_key("bottom", &LayerKey::bottom);
-  add_key("top", &LayerKey::top);
-  add_stresses(data, settings, prefix, arrays);
+  add("phi_large", points, &FitPoint::phi_large);
+  add("frames", points, &FitPoint::frames);
+  add("window", points, &FitPoint::window);
+  add("begin", data.samples, [](const LayerSample& sample) { return sample.key.begin; });
+  add("bottom", data.samples, [](const LayerSample& sample) { return sample.key.bottom; });
+  add("top", data.samples, [](const LayerSample& sample) { return sample.key.top; });
+  for (const auto& [name, rule] : given_rules) {
+    const auto of_rule = fit_points(data, rule, settings);
+    add(std::string(name) + "_small", of_rule, &FitPoint::small);
+    add(std::string(name) + "_large", of_rule, &FitPoint::large);
+    if (!rule.adds_up()) add(std::string(name) + "_total", of_rule, &FitPoint::total);
+  }
 }
 
 /// The layers of all tables, each with its mean over time, as if they were one window.
@@ -137,8 +115,7 @@ Selected select(const std::vector<Table>& tables, const std::vector<PartitionRul
 }
 
 /// Of two species alone, in which what large grains do not get goes to the small ones.
-void add_powers(const PartitionInput& input, const PartitionSettings& settings,
-                BinaryArrays& arrays)
+void add_powers(const StressTables& input, const PartitionSettings& settings, BinaryArrays& arrays)
 {
   std::vector<double> of_samples, of_layers;
   const auto nodes = power_nodes();
@@ -223,7 +200,7 @@ std::vector<double> power_nodes()
   return nodes;
 }
 
-Json partition_data(const PartitionInput& input, const PartitionSettings& settings,
+Json partition_data(const StressTables& input, const PartitionSettings& settings,
                     BinaryArrays& arrays)
 {
   const auto selected = select(input.sums, rules_to_read(settings.rules), settings);

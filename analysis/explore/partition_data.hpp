@@ -2,9 +2,9 @@
 #pragma once
 
 #include "analysis/explore/binary_arrays.hpp"
+#include "analysis/explore/stress_tables.hpp"
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_pairs.hpp"
-#include "formats/cli/table.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,12 +19,6 @@ namespace grseg {
 /// the polynomial through these points differs from it by less than 1e-7, for r_L < 2.4 r_S by 1e-9.
 std::vector<double> power_nodes();
 inline constexpr double highest_power = 4;
-
-/// Sums of one or several runs, and of the same runs by power:Q for each of power_nodes(), or none.
-struct PartitionInput {
-  std::vector<Table> sums;                    // by run
-  std::vector<std::vector<Table>> of_powers;  // by node and run
-};
 
 struct PartitionSettings {
   std::vector<PartitionRule> rules;  // that are fitted here; a page fits any other by itself
@@ -44,8 +38,9 @@ struct PartitionSettings {
 ///
 /// and the same of the means over time of all layers, "layer_" before the name. Stress under uniform:p
 /// is linear in p. Of more than two species mixed contacts with the others enter, too: p*, the shares and
-/// what neutral contacts would make of B belong to two alone, `two`. Returns the rest; errors as select_fit_data and fit_points.
-nlohmann::ordered_json partition_data(const PartitionInput& input,
-                                      const PartitionSettings& settings, BinaryArrays& arrays);
+/// what neutral contacts would make of B belong to two alone, `two`. Returns the rest; errors as
+/// select_fit_data and fit_points.
+nlohmann::ordered_json partition_data(const StressTables& input, const PartitionSettings& settings,
+                                      BinaryArrays& arrays);
 
 }  // namespace grseg

@@ -12,43 +12,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json bounds_of(const Quantisation& q)
+/// A list of each frame, one after the other, as codes between its bounds, which hold those of `q` unless
+/// these are all that is wanted; the bounds.
+Json add_codes(const ShownRun& run, const char* name, std::vector<float> ShownFrame::*list,
+               BinaryArrays& arrays, Quantisation q = {}, bool widen = true)
 {
+  std::vector<std::uint16_t> codes;
+  if (widen)
+    for (const auto& frame : run.frames)
+      for (const float value : frame.*list) q.include(value);
+  for (const auto& frame : run.frames)
+    for (const float value : frame.*list) codes.push_back(q.code(value));
+  arrays.add(name, codes);
   return {{"from", q.from()}, {"step", q.step()}};
-}
-
-/// The codes of a list of each frame, one after the other.
-std::vector<std::uint16_t> codes(const ShownRun& run, std::vector<float> ShownFrame::*list,
-                                 const Quantisation& q)
-{
-  std::vector<std::uint16_t> all;
-  for (const auto& frame : run.frames)
-    for (const float value : frame.*list) all.push_back(q.code(value));
-  return all;
-}
-
-Quantisation bounds(const ShownRun& run, std::vector<float> ShownFrame::*list)
-{
-  Quantisation q;
-  for (const auto& frame : run.frames)
-    for (const float value : frame.*list) q.include(value);
-  return q;
 }
 
 /// Where grains are; along a periodic axis codes fill the cell.
 Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
 {
-  const Quantisation x = box.periodic_x ? Quantisation(0, box.length_x)
-                                        : bounds(run, &ShownFrame::x),
-                     y = bounds(run, &ShownFrame::y);
-  arrays.add("x", codes(run, &ShownFrame::x, x));
-  arrays.add("y", codes(run, &ShownFrame::y, y));
-  Json all{{"x", bounds_of(x)}, {"y", bounds_of(y)}};
-  if (box.dimension == 3) {
-    const Quantisation cut = bounds(run, &ShownFrame::radius);
-    arrays.add("cut_radius", codes(run, &ShownFrame::radius, cut));
-    all["cut"] = bounds_of(cut);
-  }
+  const auto cell = box.periodic_x ? Quantisation(0, box.length_x) : Quantisation();
+  Json all{{"x", add_codes(run, "x", &ShownFrame::x, arrays, cell, !box.periodic_x)},
+           {"y", add_codes(run, "y", &ShownFrame::y, arrays)}};
+  if (box.dimension == 3) all["cut"] = add_codes(run, "cut_radius", &ShownFrame::radius, arrays);
   return all;
 }
 
@@ -69,16 +54,6 @@ void add_pairs(const ShownRun& run, BinaryArrays& arrays)
   arrays.add("j", second);
 }
 
-/// 0 lies between the bounds.
-Json add_forces(const ShownRun& run, const char* name, std::vector<float> ShownFrame::*list,
-                BinaryArrays& arrays)
-{
-  auto q = bounds(run, list);
-  q.include(0);
-  arrays.add(name, codes(run, list, q));
-  return bounds_of(q);
-}
-
 Json add_contacts(const ShownRun& run, BinaryArrays& arrays)
 {
   if (run.row.size() <= 1u << 15)
@@ -90,8 +65,9 @@ Json add_contacts(const ShownRun& run, BinaryArrays& arrays)
   for (const auto& frame : run.frames)
     offset.push_back(offset.back() + static_cast<std::uint32_t>(frame.i.size()));
   arrays.add("contact_offset", offset);
-  return {{"along", add_forces(run, "along", &ShownFrame::along, arrays)},
-          {"across", add_forces(run, "across", &ShownFrame::across, arrays)}};
+  const Quantisation zero(0, 0);  // lies between the bounds
+  return {{"along", add_codes(run, "along", &ShownFrame::along, arrays, zero)},
+          {"across", add_codes(run, "across", &ShownFrame::across, arrays, zero)}};
 }
 
 /// Walls as the last frame knows them, in those before by number; returns how many.

@@ -31,7 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Fits, or the sentence that tells why there is nothing to fit.
-Json fitted(const PartitionInput& input, PartitionSettings settings, const std::string& base,
+Json fitted(const StressTables& input, PartitionSettings settings, const std::string& base,
             BinaryArrays& arrays)
 {
   const auto word = base.empty() ? header_or(input.sums.front(), "base", "contact-point") : base;
@@ -83,31 +83,69 @@ Json player_of(const FrameLoop& loop, const ExploreSettings& s, BinaryArrays& ar
 }
 
 /// Those that were given, or made of the run.
-PartitionInput sums_of(FrameLoop& loop, const Table* given, const std::string& command)
+StressTables sums_of(FrameLoop& loop, const Table* given, const std::string& command)
 {
-  if (given != nullptr) {
-    require_same_species(*given, loop.species());
-    return {{*given}, {}};
-  }
-  const bool two = loop.species().size() == 2;
-  auto made = make_stress_tables(loop, two ? power_nodes() : std::vector<double>{}, command);
-  PartitionInput sums{{std::move(made.sums)}, {}};
-  sums.of_powers.reserve(made.of_powers.size());
-  for (auto& of_power : made.of_powers) sums.of_powers.push_back({std::move(of_power)});
-  return sums;
+  if (given == nullptr) return make_stress_tables(loop, command);
+  require_same_species(*given, loop.species());
+  return {{*given}, {}};
 }
 
 /// The sums of all runs.
-PartitionInput together(const std::vector<RunOfPage>& runs)
+StressTables together(const std::vector<RunOfPage>& runs)
 {
-  PartitionInput all;
-  const bool have_powers = std::all_of(
-      runs.begin(), runs.end(), [](const RunOfPage& run) { return !run.sums.of_powers.empty(); });
-  if (have_powers) all.of_powers.resize(runs.front().sums.of_powers.size());
-  for (const auto& run : runs) {
-    all.sums.push_back(run.sums.sums.front());
+  auto all = runs.front().sums;
+  for (std::size_t run = 1; run < runs.size(); ++run) {
+    const auto& [sums, of_powers] = runs[run].sums;
+    all.sums.push_back(sums.front());
+    all.of_powers.resize(std::min(all.of_powers.size(), of_powers.size()));
     for (std::size_t k = 0; k < all.of_powers.size(); ++k)
-      all.of_powers[k].push_back(run.sums.of_powers[k].front());
+      all.of_powers[k].push_back(of_powers[k].front());
+  }
+  return all;
+}
+
+Json lines_of(const std::string& text)
+{
+  Json all = Json::array();
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) all.push_back(printable(line));
+  return all;
+}
+
+std::string text_of(const std::vector<double>& numbers)
+{
+  return fmt::format("{:.9g}", fmt::join(numbers, " "));
+}
+
+constexpr std::string_view summary_prefix = "summary_";
+
+/// /parameters whose names begin with summary_, or the others; texts that are shown elsewhere are not
+/// among them.
+Json parameters_of(const TrajectoryReader& run, bool of_summary)
+{
+  Json all = Json::array();
+  const auto& [numbers, texts] = run.parameters();
+  for (const auto& [name, value] : numbers)
+    if (name.starts_with(summary_prefix) == of_summary)
+      all.push_back(
+          {printable(of_summary ? name.substr(summary_prefix.size()) : name), text_of(value)});
+  if (of_summary) return all;
+  for (const auto& [name, value] : texts)
+    if (name != "scene" && name != "history" && name != "command_line")
+      all.push_back({printable(name), printable_lines(value)});
+  return all;
+}
+
+Json observables_of(const TrajectoryReader& run)
+{
+  Json all = Json::array();
+  for (const auto& [name, unit] : run.observables()) {
+    const auto values = run.observable(name);
+    if (values.empty()) continue;
+    const double mean =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    all.push_back(
+        {printable(name), printable(unit), mean, *std::max_element(values.begin(), values.end())});
   }
   return all;
 }
@@ -173,56 +211,6 @@ Json fitted_together(const std::vector<RunOfPage>& runs, const ExploreSettings& 
     return {{"why_no_fit", printable(different.what())}};
   }
 }
-
-namespace {
-
-Json lines_of(const std::string& text)
-{
-  Json all = Json::array();
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) all.push_back(printable(line));
-  return all;
-}
-
-std::string text_of(const std::vector<double>& numbers)
-{
-  return fmt::format("{:.9g}", fmt::join(numbers, " "));
-}
-
-constexpr std::string_view summary_prefix = "summary_";
-
-/// /parameters whose names begin with summary_, or the others; texts that are shown elsewhere are not
-/// among them.
-Json parameters_of(const TrajectoryReader& run, bool of_summary)
-{
-  Json all = Json::array();
-  const auto& [numbers, texts] = run.parameters();
-  for (const auto& [name, value] : numbers)
-    if (name.starts_with(summary_prefix) == of_summary)
-      all.push_back(
-          {printable(of_summary ? name.substr(summary_prefix.size()) : name), text_of(value)});
-  if (of_summary) return all;
-  for (const auto& [name, value] : texts)
-    if (name != "scene" && name != "history" && name != "command_line")
-      all.push_back({printable(name), printable_lines(value)});
-  return all;
-}
-
-Json observables_of(const TrajectoryReader& run)
-{
-  Json all = Json::array();
-  for (const auto& [name, unit] : run.observables()) {
-    const auto values = run.observable(name);
-    if (values.empty()) continue;
-    const double mean =
-        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    all.push_back(
-        {printable(name), printable(unit), mean, *std::max_element(values.begin(), values.end())});
-  }
-  return all;
-}
-
-}  // namespace
 
 Json run_summary(const TrajectoryReader& run)
 {

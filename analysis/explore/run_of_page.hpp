@@ -17,7 +17,7 @@ namespace grseg {
 struct RunOfPage {
   nlohmann::ordered_json content;
   BinaryArrays arrays;
-  PartitionInput sums;
+  StressTables sums;
 };
 
 /// The arrays of a page are no larger than this, in MB. A browser reads each run's from a string of base64,

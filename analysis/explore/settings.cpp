@@ -10,7 +10,6 @@
 
 #include <fstream>
 #include <map>
-#include <optional>
 #include <string_view>
 
 namespace grseg {
@@ -117,60 +116,42 @@ po::variables_map with_inputs(const po::variables_map& values,
 namespace {
 
 /// Options, each after a space, of what is not as without them.
-class Options {
- public:
-  template <class T>
-  void add(const char* name, const T& value, const T& usual)
-  {
-    if (value != usual) text_ += fmt::format(" {} {}", name, shell_word(fmt::format("{}", value)));
-  }
-  void add(const char* name, const std::optional<double>& value)
-  {
-    if (value) text_ += fmt::format(" {} {}", name, *value);
-  }
-  void add_flag(const char* name, bool value)
-  {
-    if (value) text_ += fmt::format(" {}", name);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-void add_times(Options& options, const WindowSettings& windows)
+template <class T>
+std::string option(const char* name, const T& value, const T& usual)
 {
-  options.add("--begin", windows.begin);
-  options.add("--end", windows.end);
+  return value == usual ? "" : fmt::format(" {} {}", name, shell_word(fmt::format("{}", value)));
+}
+
+std::string times_of(const WindowSettings& windows)
+{
+  std::string text;
+  if (windows.begin) text += fmt::format(" --begin {}", *windows.begin);
+  if (windows.end) text += fmt::format(" --end {}", *windows.end);
+  return text;
 }
 
 std::string stress_options(const FrameOptions& own)
 {
   const FrameOptions usual;
-  Options options;
-  options.add("--layer", own.layer, usual.layer);
-  options.add("--window", window_text(own.windows), window_text(usual.windows));
-  add_times(options, own.windows);
-  options.add("--stride", own.windows.stride, usual.windows.stride);
-  for (const auto& group : own.grouping.groups) options.add("--group", group, std::string());
-  options.add("--classes", own.grouping.classes, usual.grouping.classes);
-  options.add("--edges", own.grouping.edges, usual.grouping.edges);
-  options.add_flag("--trust", own.trust.trust);
-  return options.text();
+  auto text = option("--layer", own.layer, usual.layer) +
+              option("--window", window_text(own.windows), window_text(usual.windows)) +
+              times_of(own.windows) + option("--stride", own.windows.stride, usual.windows.stride);
+  for (const auto& group : own.grouping.groups) text += option("--group", group, std::string());
+  return text + option("--classes", own.grouping.classes, usual.grouping.classes) +
+         option("--edges", own.grouping.edges, usual.grouping.edges) +
+         (own.trust.trust ? " --trust" : "");
 }
 
 /// Of a table that was given the rows are chosen when B is found, of one that is made when it is made.
 std::string fit_options(const ExploreSettings& own, bool given)
 {
   const ExploreSettings usual;
-  Options options;
-  if (given) add_times(options, own.frames.windows);
-  options.add("--heights", own.partition.filters.heights, std::string(inside_the_bed));
-  options.add("--component", own.component, usual.component);
-  options.add("--base-part", own.base, usual.base);
-  options.add("--bootstrap", own.bootstrap, usual.bootstrap);
-  options.add("--seed", own.seed, usual.seed);
-  return options.text();
+  return (given ? times_of(own.frames.windows) : "") +
+         option("--heights", own.partition.filters.heights, std::string(inside_the_bed)) +
+         option("--component", own.component, usual.component) +
+         option("--base-part", own.base, usual.base) +
+         option("--bootstrap", own.bootstrap, usual.bootstrap) +
+         option("--seed", own.seed, usual.seed);
 }
 
 }  // namespace

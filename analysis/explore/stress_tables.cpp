@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/stress_tables.hpp"
 
+#include "analysis/explore/partition_data.hpp"
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/table_writer.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
@@ -13,11 +14,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace grseg {
 namespace {
 
-/// The same sums for several exponents, in one pass over the frames.
+/// The same sums for several exponents, or none, in one pass over the frames.
 template <int D>
 struct StressOfPowers {
   std::vector<PartialContactStress<D>> of;  // by exponent
@@ -32,12 +34,6 @@ struct StressOfPowers {
   }
 };
 
-template <int D>
-PartialContactStress<D> no_contacts(const FrameLoop& loop, std::optional<double> power)
-{
-  return {loop.layers(), Assignment::contact_point, power, std::nullopt, loop.species().size()};
-}
-
 template <class T>
 std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 {
@@ -46,8 +42,8 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
 }
 
 /// Without rows.
-template <int D>
-Table table_of(const FrameLoop& loop, std::optional<double> power, const std::string& command)
+Table table_of(const FrameLoop& loop, std::optional<double> power, const std::string& command,
+               const std::vector<std::string>& columns)
 {
   Header settings{{"assign", "contact-point"},
                   {"composition", "clipped"},
@@ -55,41 +51,39 @@ Table table_of(const FrameLoop& loop, std::optional<double> power, const std::st
                   {"base", "contact-point"},
                   {"volume", "bulk"}};
   if (power) settings.emplace_back("power", format_number(*power));
-  const auto& species = loop.species();
-  auto table = empty_table(
-      loop, command, settings,
-      joined(content_columns(species, D), no_contacts<D>(loop, power).columns(species)));
+  auto table = empty_table(loop, command, settings, columns);
   table.name = loop.run().path();
   return table;
 }
 
 template <int D>
-StressTables make_tables(FrameLoop& loop, std::span<const double> powers,
-                         const std::string& command)
+StressTables make_tables(FrameLoop& loop, const std::string& command)
 {
-  StressTables tables{table_of<D>(loop, std::nullopt, command), {}};
+  const auto& species = loop.species();
+  std::vector<std::optional<double>> powers{std::nullopt};
+  if (species.size() == 2)
+    for (const double node : power_nodes()) powers.emplace_back(node);
+  std::vector<Table> tables;
   StressOfPowers<D> none;
-  for (const double power : powers) {
-    tables.of_powers.push_back(table_of<D>(loop, power, command));
-    none.of.push_back(no_contacts<D>(loop, power));
+  for (const auto power : powers) {
+    none.of.emplace_back(loop.layers(), Assignment::contact_point, power, std::nullopt,
+                         species.size());
+    tables.push_back(
+        table_of(loop, power, command,
+                 joined(content_columns(species, D), none.of.back().columns(species))));
   }
-  const Composition<D> no_grains(loop.layers(), GrainArea::clipped, std::nullopt,
-                                 loop.species().size());
+  const Composition<D> no_grains(loop.layers(), GrainArea::clipped, std::nullopt, species.size());
   for (const auto& window : loop.windows()) {
-    const auto [composition, stress, of_powers] =
-        loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains,
-                    no_contacts<D>(loop, std::nullopt), none);
-    for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
-      const auto content = composition.mean(layer);
-      const auto row = [&](const PartialContactStress<D>& sums) {
-        return table_row(loop, window, layer, joined(content, sums.row(layer)));
-      };
-      tables.sums.rows.push_back(row(stress));
-      for (std::size_t k = 0; k < powers.size(); ++k)
-        tables.of_powers[k].rows.push_back(row(of_powers.of[k]));
-    }
+    const auto [composition, stress] =
+        loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, none);
+    for (std::size_t layer = 0; layer < stress.of.front().layers(); ++layer)
+      for (std::size_t k = 0; k < tables.size(); ++k)
+        tables[k].rows.push_back(table_row(
+            loop, window, layer, joined(composition.mean(layer), stress.of[k].row(layer))));
   }
-  return tables;
+  StressTables all{{std::move(tables.front())}, {}};
+  for (std::size_t k = 1; k < tables.size(); ++k) all.of_powers.push_back({std::move(tables[k])});
+  return all;
 }
 
 /// The number of the one run that a table was made of: by its digest, or of another file of the same
@@ -123,12 +117,9 @@ std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
 
 }  // namespace
 
-StressTables make_stress_tables(FrameLoop& loop, std::span<const double> powers,
-                                const std::string& command)
+StressTables make_stress_tables(FrameLoop& loop, const std::string& command)
 {
-  StressTables tables;
-  with_dimension(loop.dimension(), [&](auto d) { tables = make_tables<d>(loop, powers, command); });
-  return tables;
+  return with_dimension(loop.dimension(), [&](auto d) { return make_tables<d>(loop, command); });
 }
 
 std::vector<const Table*> tables_of_runs(const std::vector<Table>& tables,

@@ -4,23 +4,22 @@
 #include "analysis/frames/frame_loop.hpp"
 #include "formats/cli/table.hpp"
 
-#include <span>
 #include <string>
 #include <vector>
 
 namespace grseg {
 
-/// The sums of a run, as grseg-stress makes them with its defaults: contacts in the layer of their
-/// contact point, grains clipped at the edges of layers.
+/// The sums of one or several runs, as grseg-stress makes them with its defaults: contacts in the layer
+/// of their contact point, grains clipped at the edges of layers.
 struct StressTables {
-  Table sums;
-  /// With the columns of power:Q for each Q that was asked for; all else is that of `sums`.
-  std::vector<Table> of_powers;
+  std::vector<Table> sums;  // by run
+  /// With the columns of power:Q for each Q of power_nodes(), or none; by node and run.
+  std::vector<std::vector<Table>> of_powers;
 };
 
-/// Reads the frames of all windows once. `command` is the last line of the tables' history.
-StressTables make_stress_tables(FrameLoop& loop, std::span<const double> powers,
-                                const std::string& command);
+/// Those of one run, with powers where it has two species. Reads the frames of all windows once.
+/// `command` is the last line of the tables' history.
+StressTables make_stress_tables(FrameLoop& loop, const std::string& command);
 
 /// What a run is known by: "xxh3 ...", and the line "bed" of its tables (formats/cli/bed.hpp).
 struct RunIdentity {

@@ -18,13 +18,7 @@ def run_quietly(command, **options):
                           check=False, **options)
 
 
-def without_joined_libraries(text):
-    """CMakeLists.txt that compiles each file of the libraries alone, so that a fault costs one file, not a
-    room; tests stay joined."""
-    return re.sub(r"\n *grseg_join_sources\(grseg_(analysis|simulator|explore)\)", "", text)
-
-
-def mirror(source, copy, change=lambda text: text):
+def mirror(source, copy):
     """Makes the copy of a file or folder equal. Contents decide, not times: a file may have been edited while an
     earlier copy of it was compiled, or broken. What is equal keeps its time."""
     if os.path.isdir(source):
@@ -37,7 +31,7 @@ def mirror(source, copy, change=lambda text: text):
             mirror(os.path.join(source, name), os.path.join(copy, name))
         return
     with open(source, "rb") as file:
-        content = change(file.read())
+        content = file.read()
     if os.path.exists(copy):
         with open(copy, "rb") as file:
             if file.read() == content:
@@ -55,15 +49,14 @@ class Copy:
         self.bin = f"{self.tree}/build/bin"
         self.commit = run_quietly(["git", "rev-parse", "--short=7", "HEAD"]).stdout.strip()
         os.makedirs(self.tree, exist_ok=True)
-        for part in FOLDERS:
+        for part in [*FOLDERS, "CMakeLists.txt"]:
             mirror(part, f"{self.tree}/{part}")
-        mirror("CMakeLists.txt", f"{self.tree}/CMakeLists.txt",
-               lambda text: without_joined_libraries(text.decode()).encode())
 
     def build(self, targets):
         if not os.path.exists(f"{self.tree}/build/build.ninja"):
             done = run_quietly(["cmake", "-S", self.tree, "-B", f"{self.tree}/build", "-G", "Ninja",
                                 "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=ON", "-DBUILD_SHARED_LIBS=ON",
+                                "-DGRSEG_JOIN_SOURCES=OFF",  # a fault costs one file, not a room
                                 "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON", *self.options])
             if done.returncode != 0:
                 raise SystemExit(done.stdout)

@@ -3,7 +3,6 @@
 
 const types = {
   u8: Uint8Array,
-  i8: Int8Array,
   u16: Uint16Array,
   u32: Uint32Array,
   f32: Float32Array,
