@@ -5,7 +5,7 @@ import {axisBottom, axisLeft, select} from "./d3.js";
 
 let charts = 0; // so far, for names
 
-const margin = {top: 22, right: 14, bottom: 38, left: 46};
+export const margin = {top: 22, right: 14, bottom: 38, left: 46};
 
 /** Puts "σ^S/σ_{yy}" into a text, with what follows ^ and _ raised and lowered. */
 function setLabel(text, label) {
@@ -20,6 +20,9 @@ function setLabel(text, label) {
 }
 
 const trueMinus = (text) => text.replace(/-/g, "−");
+
+/** Puts a line of an SVG upright at x. */
+export const upright = (mark, x, from, to) => mark.attr("x1", x).attr("x2", x).attr("y1", from).attr("y2", to);
 
 export class Chart {
   /** `scales`: {x, y} of d3; `labels`: {x, y}; `height` in pixels; `name` for those who do not see it. */
@@ -48,9 +51,6 @@ export class Chart {
     setLabel(this.yLabel, y);
   }
 
-  get margin() {
-    return margin;
-  }
   get inner() {
     return {left: margin.left, right: this.width - margin.right, top: margin.top, bottom: this.height - margin.bottom};
   }

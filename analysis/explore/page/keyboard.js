@@ -5,10 +5,6 @@ import {byId} from "./format.js";
 import {isShare, parseRule, shareOf} from "./partition.js";
 import {set, state} from "./state.js";
 
-function toggle(id) {
-  byId(id).click();
-}
-
 /** `page`: {fit(), zero(), step(by), play(), nextGrain(by), nextRun(), tab(name), theme(), rules}. */
 export function listenToKeys(page) {
   const move = (by) => {
@@ -30,10 +26,10 @@ export function listenToKeys(page) {
     ArrowUp: (event) => move(event.shiftKey ? 0.05 : 0.005),
     ArrowDown: (event) => move(event.shiftKey ? -0.05 : -0.005),
     0: toZero,
-    g: () => toggle("show-grains"),
-    f: () => toggle("show-forces"),
-    m: () => toggle("only-mixed"),
-    l: () => toggle("show-layers"),
+    g: () => byId("show-grains").click(),
+    f: () => byId("show-forces").click(),
+    m: () => byId("only-mixed").click(),
+    l: () => byId("show-layers").click(),
     ".": () => page.nextGrain(1),
     ",": () => page.nextGrain(-1),
     Escape: () => set({grain: -1}),

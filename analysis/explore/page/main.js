@@ -19,6 +19,7 @@ import {Transport} from "./transport.js";
 
 const content = readContent();
 const {runs} = content;
+const all = [...runs, ...(content.together ? [content.together] : [])];
 
 function nameThePage() {
   const names = runs.map((run) => run.name).join(", ");
@@ -29,14 +30,11 @@ function nameThePage() {
 
 /** Fits get their arrays. The last one is of all runs together, where there are several. */
 async function readAll() {
-  const arrays = await Promise.all(
-    [...runs, ...(content.together ? [content.together] : [])].map((one, k) => readArrays(k, one.arrays)),
-  );
-  runs.forEach((run, k) => {
-    run.arrays = arrays[k];
-    if (run.fit) run.fit.arrays = arrays[k];
+  const arrays = await Promise.all(all.map((one, k) => readArrays(k, one.arrays)));
+  all.forEach((one, k) => {
+    one.arrays = arrays[k];
+    if (one.fit) one.fit.arrays = arrays[k];
   });
-  if (content.together?.fit) content.together.fit.arrays = arrays[runs.length];
 }
 
 function showTab(name) {
@@ -102,7 +100,7 @@ function heightOf(some) {
 /** All that is drawn, with the players of all runs. */
 class Page {
   constructor() {
-    this.fits = [...runs, ...(content.together ? [content.together] : [])].map((one) => one.fit ?? null);
+    this.fits = all.map((one) => one.fit ?? null);
     this.showTab = showTab;
     this.ruleWords = content.rules.filter((rule) => rule.stock).map((rule) => rule.word);
     const rule = parseRule(content.start);
@@ -114,10 +112,7 @@ class Page {
     this.#placePlayers();
     this.transport = new Transport(this.players.map((player) => player.frames));
     this.grain = new GrainPanel(content);
-    this.compare = new Compare([
-      ...runs.map((run) => ({name: run.name, fit: run.fit, why: run.why_no_fit})),
-      ...(content.together ? [{name: "all together", fit: content.together.fit, why: content.together.why_no_fit}] : []),
-    ]);
+    this.compare = new Compare(all.map(({name = "all together", fit, why_no_fit: why}) => ({name, fit, why})));
     if (first >= 0) this.#makePlots();
     this.#hideWhatIsMissing();
     for (const [, id, name] of boxes)
@@ -138,9 +133,8 @@ class Page {
 
   #placePlayers() {
     this.players.forEach((player, k) => {
-      const several = runs.length > 1;
       player.canvas.setAttribute("aria-label", `The flow of ${runs[k].name}`);
-      const caption = several ? element("figcaption", {}, runs[k].name) : null;
+      const caption = runs.length > 1 ? element("figcaption", {}, runs[k].name) : null;
       byId("players").append(element("figure", {}, player.canvas, caption));
     });
     byId("players").classList.toggle("several", runs.length > 1);

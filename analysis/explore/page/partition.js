@@ -46,17 +46,8 @@ export function hasPowers(fit) {
   return fit.power_nodes.length > 0;
 }
 
-function mixed(none, all, p) {
-  const values = new Float64Array(none.length);
-  for (let k = 0; k < values.length; ++k) values[k] = (1 - p) * none[k] + p * all[k];
-  return values;
-}
-
-function added(a, b) {
-  const values = new Float64Array(a.length);
-  for (let k = 0; k < values.length; ++k) values[k] = a[k] + b[k];
-  return values;
-}
+const mixed = (none, all, p) => none.map((_, k) => (1 - p) * none[k] + p * all[k]);
+const added = (a, b) => a.map((value, k) => value + b[k]);
 
 function ofPower(fit, get, Q) {
   const total = added(get("none_small"), get("none_large"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the rule makes of each layer: the pressures of both species, and B.
 
-import {Chart} from "./chart.js";
+import {Chart, upright} from "./chart.js";
 import {extent, group, line, scaleLinear} from "./d3.js";
 import {byId, keys} from "./format.js";
 import {sumsOf, stressOf} from "./partition.js";
@@ -79,8 +79,7 @@ export class Profiles {
     this.strength.scales.x.domain([Math.max(-3, Math.min(...finite, 0)), Math.min(3, Math.max(...finite, 0))]).nice();
     this.strength.scales.y.domain([0, top]);
     this.strength.layout();
-    const {x} = this.strength.scales, {top: high, bottom: low} = this.strength.inner;
-    this.nothing.attr("x1", x(0)).attr("x2", x(0)).attr("y1", high).attr("y2", low);
+    upright(this.nothing, this.strength.scales.x(0), this.strength.inner.top, this.strength.inner.bottom);
   }
 
   #strengths(stress) {
@@ -103,12 +102,7 @@ export class Profiles {
     const seen = this.fitted.map((layer, k) => ({...layer, B: values[k]})).filter(({B}) => Number.isFinite(B));
     const {left, right, top, bottom} = this.strength.inner;
     const B = found.B;
-    this.all
-      .attr("visibility", B >= xb.domain()[0] && B <= xb.domain()[1] ? "visible" : "hidden")
-      .attr("x1", xb(B || 0))
-      .attr("x2", xb(B || 0))
-      .attr("y1", top)
-      .attr("y2", bottom);
+    upright(this.all, xb(B || 0), top, bottom).attr("visibility", B >= xb.domain()[0] && B <= xb.domain()[1] ? "visible" : "hidden");
     this.dots
       .selectAll("circle")
       .data(seen)

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The second tab: what was run, how accurately, with which result; made to be printed.
 
-import {Chart} from "./chart.js";
+import {Chart, upright} from "./chart.js";
 import {area, extent, line, scaleLinear} from "./d3.js";
 import {byId, element, fixed, interval, keys, rounded, short, table, withUnit} from "./format.js";
 import {isShare, stressOf, zeroOf} from "./partition.js";
 
 const charts = [];
 
-/** A figure with a chart; `draw` is called whenever its width is known. `lines`: [look, name] of those drawn. */
-function figure(caption, options, draw, lines = []) {
+/**
+ * A figure with a chart, which is drawn whenever its width is known: `domains(x, y)` sets those of the scales, or tells by
+ * false that there is nothing to draw; `paths(x, y, chart)` are [look, outline]. `lines`: [look, name] of the caption.
+ */
+function figure(caption, labels, domains, paths, lines = []) {
   const host = element("div", {class: "plot"});
   const made = element("figure", {}, host, element("figcaption", {}, `${caption}${lines.length ? ": " : "."}`, ...keys(lines)));
-  const chart = new Chart(host, {height: 240, scales: {x: scaleLinear(), y: scaleLinear()}, name: caption, ...options});
+  const chart = new Chart(host, {height: 240, scales: {x: scaleLinear(), y: scaleLinear()}, name: caption, labels});
+  const {x, y} = chart.scales;
   charts.push(() => {
-    if (host.clientWidth > 0) draw(chart);
+    if (!(host.clientWidth > 0) || domains(x, y) === false) return;
+    chart.layout();
+    chart.under.selectAll("*").remove();
+    for (const [look, outline] of paths(x, y, chart)) chart.under.append("path").attr("class", look).attr("d", outline);
   });
   return made;
 }
@@ -22,39 +29,31 @@ function figure(caption, options, draw, lines = []) {
 /** B over the share p with its band. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
-  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
-  return figure(caption, {labels: {x: "share p", y: "B"}}, (chart) => {
-    const grid = fit.scan.p.map((p, k) => [p, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
-    chart.scales.y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
-    chart.layout();
-    const {x, y} = chart.scales;
-    chart.under.selectAll("*").remove();
-    const banded = grid.filter((row) => row[2] !== null);
-    chart.under.append("path").attr("class", "band").attr("d", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(banded));
-    chart.under.append("path").attr("class", "curve").attr("d", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid));
+  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
+  const grid = fit.scan.p.map((share, k) => [share, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
+  const domains = (_, y) => y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
+  return figure(caption, {x: "share p", y: "B"}, domains, function* (x, y, chart) {
+    yield ["band", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(grid.filter((row) => row[2] !== null))];
+    yield ["curve", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid)];
+    if (!isShare(p)) return;
     const {top, bottom} = chart.inner;
-    if (isShare(p)) {
-      const zero = chart.under.append("g").attr("class", "p-zero");
-      zero.append("line").attr("x1", x(p)).attr("x2", x(p)).attr("y1", top).attr("y2", bottom);
-      zero.append("text").attr("x", x(p) + 5).attr("y", bottom - 8).text(`p* = ${fixed(p)}`);
-    }
+    const zero = chart.under.append("g").attr("class", "p-zero");
+    upright(zero.append("line"), x(p), top, bottom);
+    zero.append("text").attr("x", x(p) + 5).attr("y", bottom - 8).text(`p* = ${fixed(p)}`);
   });
 }
 
 /** psi_L over phi_L, a point per layer and window; in one path, since there may be thousands. */
 function excessFigure(fit) {
   const caption = "Large grains’ share of the pressure, by size, over their share of the grains: a point for each layer and window";
-  return figure(caption, {labels: {x: "φ_L", y: "ψ_L"}}, (chart) => {
-    const {small, large} = stressOf(fit, {kind: "size", value: NaN});
-    const points = Array.from(fit.arrays.phi_large, (phi, k) => [phi, large[k] / (small[k] + large[k])]).filter(([, psi]) => Number.isFinite(psi));
-    if (!points.length) return;
-    chart.scales.y.domain([Math.min(0, extent(points, ([, psi]) => psi)[0]), Math.max(1, extent(points, ([, psi]) => psi)[1])]);
-    chart.layout();
-    const {x, y} = chart.scales;
-    chart.under.selectAll("*").remove();
-    chart.under.append("path").attr("class", "neutral").attr("d", line()([[x(0), y(0)], [x(1), y(1)]]));
-    chart.under.append("path").attr("class", "points").attr("d", points.map(([phi, psi]) => `M${x(phi).toFixed(1)},${y(psi).toFixed(1)}h0`).join(""));
-  }, [["neutral", "equal shares"]]);
+  const {small, large} = stressOf(fit, {kind: "size", value: NaN});
+  const points = Array.from(fit.arrays.phi_large, (phi, k) => [phi, large[k] / (small[k] + large[k])]).filter(([, psi]) => Number.isFinite(psi));
+  const [least, most] = extent(points, ([, psi]) => psi);
+  const domains = (_, y) => points.length > 0 && y.domain([Math.min(0, least), Math.max(1, most)]);
+  return figure(caption, {x: "φ_L", y: "ψ_L"}, domains, (x, y) => [
+    ["neutral", line()([[x(0), y(0)], [x(1), y(1)]])],
+    ["points", points.map(([phi, psi]) => `M${x(phi).toFixed(1)},${y(psi).toFixed(1)}h0`).join("")],
+  ], [["neutral", "equal shares"]]);
 }
 
 /** Columns of a table by layer over the height. `lines`: [[column, look, name], ...] */
@@ -63,21 +62,16 @@ function profileFigure(layers, name, lines, caption, label, smallDiameter) {
   const places = lines.map(([column, look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), look]);
   if (places.some(([at]) => at < 0)) return null;
   const middle = (row) => (row[0] + row[1]) / 2 / smallDiameter;
-  return figure(caption, {labels: {x: label, y: "y/d_S"}}, (chart) => {
-    const values = rows.flatMap((row) => places.map(([at]) => row[at])).filter((v) => v !== null);
-    if (!values.length) return;
-    const [least, most] = extent(values);
-    chart.scales.x.domain([Math.min(0, least), Math.max(0, most)]).nice();
-    chart.scales.y.domain([0, Math.max(...rows.map((row) => row[1])) / smallDiameter]);
-    chart.layout();
-    const {x, y} = chart.scales;
-    chart.under.selectAll("*").remove();
-    for (const [at, look] of places)
-      chart.under
-        .append("path")
-        .attr("class", `profile ${look}`)
-        .attr("d", line().defined((row) => row[at] !== null).x((row) => x(row[at])).y((row) => y(middle(row)))(rows));
-  }, lines.filter(([, , words]) => words).map(([, look, words]) => [look, words]));
+  const values = rows.flatMap((row) => places.map(([at]) => row[at])).filter((v) => v !== null);
+  const [least, most] = extent(values);
+  const domains = (x, y) => {
+    x.domain([Math.min(0, least), Math.max(0, most)]).nice();
+    y.domain([0, Math.max(...rows.map((row) => row[1])) / smallDiameter]);
+    return values.length > 0;
+  };
+  const paths = (x, y) => places.map(([at, look]) =>
+    [`profile ${look}`, line().defined((row) => row[at] !== null).x((row) => x(row[at])).y((row) => y(middle(row)))(rows)]);
+  return figure(caption, {x: label, y: "y/d_S"}, domains, paths, lines.filter(([, , words]) => words).map(([, look, words]) => [look, words]));
 }
 
 function profileFigures(run) {
@@ -175,25 +169,16 @@ function segregationSection(run) {
   const [large, small] = ["yL[m]", "yS[m]"].map((name) => columns.indexOf(name));
   const d = run.small_diameter;
   const middle = (row) => (row[0] + row[1]) / 2;
-  const drawn = figure(
-    "Heights of the centres of mass, means of windows",
-    {labels: {x: "t (s)", y: "y/d_S"}},
-    (chart) => {
-      const values = rows.flatMap((row) => [row[large], row[small]]).filter((v) => v !== null);
-      if (!values.length) return;
-      chart.scales.x.domain([rows[0][0], rows[rows.length - 1][1]]);
-      chart.scales.y.domain(extent(values).map((y) => y / d)).nice();
-      chart.layout();
-      const {x, y} = chart.scales;
-      chart.under.selectAll("*").remove();
-      for (const [at, look] of [[small, "small"], [large, "large"]])
-        chart.under
-          .append("path")
-          .attr("class", `profile ${look}`)
-          .attr("d", line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows));
-    },
-    [["small", "small grains"], ["large", "large grains"]],
-  );
+  const values = rows.flatMap((row) => [row[large], row[small]]).filter((v) => v !== null);
+  const domains = (x, y) => {
+    if (!values.length) return false;
+    x.domain([rows[0][0], rows[rows.length - 1][1]]);
+    return y.domain(extent(values).map((height) => height / d)).nice();
+  };
+  const paths = (x, y) => [[small, "small"], [large, "large"]].map(([at, look]) =>
+    [`profile ${look}`, line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows)]);
+  const lines = [["small", "small grains"], ["large", "large grains"]];
+  const drawn = figure("Heights of the centres of mass, means of windows", {x: "t (s)", y: "y/d_S"}, domains, paths, lines);
   const cells = numbers.filter(([, value]) => value !== null).map(([name, value, low, high]) => [
     withUnit(name),
     short(value),

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The heart: the share p of a mixed contact that goes to its large grain, and what it makes of B.
 
-import {Chart} from "./chart.js";
+import {Chart, margin, upright} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
 import {apart, byId, element, fixed, interval, keys, percent} from "./format.js";
-import {
-  commandRule,
-  fitOf,
-  hasPowers,
-  intervalOf,
-  isShare,
-  neutralSums,
-  numberedRule,
-  parseRule,
-  ruleName,
-  shareOf,
-  zeroOf,
-} from "./partition.js";
+import {commandRule, fitOf, hasPowers, intervalOf, isShare, neutralSums} from "./partition.js";
+import {numberedRule, parseRule, ruleName, shareOf, zeroOf} from "./partition.js";
 import {Parts} from "./parts.js";
 import {set, state} from "./state.js";
 
@@ -83,20 +72,15 @@ export class Share {
   }
 
   #listen() {
-    const value = (event) => event.target.valueAsNumber;
-    for (const id of ["p", "dock-p"])
-      byId(id).addEventListener("input", (event) => set({rule: uniform(value(event))}));
+    const controls = {p: "uniform", "dock-p": "uniform", q: "power", "p-number": "uniform", "q-number": "power"};
+    for (const [id, kind] of Object.entries(controls))
+      byId(id).addEventListener(id.endsWith("number") ? "change" : "input", ({target: {valueAsNumber: value}}) => {
+        if (!Number.isNaN(value)) set({rule: numberedRule(kind, value)});
+      });
     // While the slider is out of sight, there is another one at the foot of the window.
     new IntersectionObserver(([{isIntersecting: inSight}]) => {
       byId("dock").hidden = inSight;
     }).observe(byId("p-row"));
-    byId("q").addEventListener("input", (event) => set({rule: numberedRule("power", value(event))}));
-    byId("p-number").addEventListener("change", (event) => {
-      if (!Number.isNaN(value(event))) set({rule: uniform(value(event))});
-    });
-    byId("q-number").addEventListener("change", (event) => {
-      if (!Number.isNaN(value(event))) set({rule: numberedRule("power", value(event))});
-    });
     const svg = this.chart.svg.node();
     const drag = (event) => {
       if (!(event.buttons & 1)) return;
@@ -147,7 +131,7 @@ export class Share {
     byId("share-note").replaceChildren(...keys(drawn.filter(([, , is]) => is)));
     // The thumb stands under the point of the plot.
     byId("p-row").style.paddingLeft = `${chart.inner.left - 9}px`;
-    byId("p-row").style.paddingRight = `${chart.margin.right - 9}px`;
+    byId("p-row").style.paddingRight = `${margin.right - 9}px`;
     byId("q-note").textContent = hasPowers(fit)
       ? ""
       : "Q here shares by nominal radii, p = r^Q/(1 + r^Q); grseg-fit --partition power:Q takes those of each grain.";
@@ -166,7 +150,7 @@ export class Share {
         .attr("width", x(Math.min(1, high)) - x(Math.max(0, low)))
         .attr("y", top)
         .attr("height", bottom - top);
-    this.zero.append("line").attr("x1", x(p)).attr("x2", x(p)).attr("y1", top).attr("y2", bottom);
+    upright(this.zero.append("line"), x(p), top, bottom);
     const before = x(p) > left + 90;
     this.zero
       .append("text")
@@ -211,7 +195,7 @@ export class Share {
     for (const mark of [this.point, this.stem]) mark.attr("visibility", seen ? "visible" : "hidden");
     if (seen) {
       this.point.attr("cx", x(p)).attr("cy", y(B));
-      this.stem.attr("x1", x(p)).attr("x2", x(p)).attr("y1", y(B)).attr("y2", this.chart.inner.bottom);
+      upright(this.stem, x(p), y(B), this.chart.inner.bottom);
     }
     this.#updateControls(fit, p);
     this.#updateReadout(fit, p, B, stress);
