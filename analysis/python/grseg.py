@@ -157,10 +157,8 @@ class Run:
         columns of grseg-stress: areas or volumes of the grains, numbers of contacts and tensors, N m,
         means per frame. A contact counts where its grains touch. With `power`, the Q of the rule
         power:Q, also Mpower."""
-        def sums(layers, frames):
-            return _contact_sums(self, layers, frames, power)
-        return self._tabulate(sums, _stress_columns(self, power), layer, (window, begin, end, stride),
-                              _stress_header(power))
+        return self._tabulate(functools.partial(_contact_sums, self, power=power), _stress_columns(self, power), layer,
+                              (window, begin, end, stride), _stress_header(power))
 
     def kinetic_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, mean="profile"):
         """The sums of m dv (x) dv by layer, window and species, as a Table with columns of
@@ -169,10 +167,8 @@ class Run:
         over the window, whose frames are read twice."""
         if mean not in ("profile", "layer"):
             raise ValueError(f"mean = {mean!r}: profile or layer; grseg-kinetic knows more")
-        def sums(layers, frames):
-            return _kinetic_sums(self, layers, frames, mean)
-        return self._tabulate(sums, _kinetic_columns(self), layer, (window, begin, end, stride),
-                              {"mean": mean})
+        return self._tabulate(functools.partial(_kinetic_sums, self, mean=mean), _kinetic_columns(self), layer,
+                              (window, begin, end, stride), {"mean": mean})
 
     # What is below is for this file alone.
 
@@ -231,7 +227,7 @@ class Run:
         return self._read(path, 0, count)
 
     def _read_head(self):
-        self.version = self._read_version("h5md/modules/grseg")
+        self._read_version()
         self._come_and_go = "come_and_go" in self._file["particles/grains"].attrs
         self._read_parameters()
         self._offset = self._read("grseg/contacts/offset", 0,
@@ -246,15 +242,15 @@ class Run:
         self._read_times()
         self._read_end()
 
-    def _read_version(self, module):
+    def _read_version(self):
         try:
-            major, minor = self._file[module].attrs["version"]
+            major, minor = self._file["h5md/modules/grseg"].attrs["version"]
         except _OF_DAMAGE:
-            self._fail(f"/{module} has no version: {_FOREIGN}")
-        if (major, minor) != (1, 0):
-            self._fail(f"/{module} has version {major}.{minor}, and this grseg.py reads 1.0; take that of "
+            self._fail(f"/h5md/modules/grseg has no version: {_FOREIGN}")
+        self.version = f"{major}.{minor}"
+        if self.version != "1.0":
+            self._fail(f"/h5md/modules/grseg has version {self.version}, and this grseg.py reads 1.0; take that of "
                        "the grseg which wrote the file")
-        return f"{major}.{minor}"
 
     def _read_parameters(self):
         self.parameters = {}
@@ -333,18 +329,15 @@ class Run:
 
     def _read_end(self):
         """Whether the run was closed, and of what."""
-        last = self._read_digest(len(self) - 1) if len(self) else 0
+        digests = self._dataset("grseg/digest", 1, "u")
+        if len(digests) < len(self):
+            self._fail(f"/grseg/digest has no entry for frame {len(self) - 1}; the file is damaged")
+        last = int(digests[len(self) - 1]) if len(self) else 0
         self.digest = f"{last:016x}"
         seal = [int(number) for number in self._dataset("grseg/seal", 1, "u")[:]]
         self.finished = any(seal)
         if self.finished and seal[:3] != [len(self), int(self._offset[-1]), last]:
             self._fail("/grseg/seal names other frames than the file holds: it is damaged; take a copy that is whole")
-
-    def _read_digest(self, frame):
-        digests = self._dataset("grseg/digest", 1, "u")
-        if len(digests) <= frame:
-            self._fail(f"/grseg/digest has no entry for frame {frame}; the file is damaged")
-        return int(digests[frame])
 
     def _numbers(self, begin, end, stride):
         if stride < 1:
@@ -407,24 +400,19 @@ class _Block:
 
     def grains(self, name):
         """A field of the grains [F, N, ...]."""
-        path = f"particles/grains/{name}/value"
-        if path not in self._kept:
-            if name == "force" and not self.run.has_force:
-                self.run._fail(f"/{path} is missing: this run was imported without it")
-            values = self.run._read(path, self.first, self.last)
-            self._require_finite(values, path, grains=True)
-            self._kept[path] = values
-        return self._kept[path]
+        if name == "force" and not self.run.has_force:
+            self.run._fail("/particles/grains/force/value is missing: this run was imported without it")
+        return self._field(f"particles/grains/{name}/value", self.first, self.last, self._require_finite_grains)
 
     def contacts(self, name):
         """A field of the contacts [C, ...], those of one frame after those of the other."""
-        path = f"grseg/contacts/{name}"
+        return self._field(f"grseg/contacts/{name}", self.rows.start, self.rows.stop,
+                           self._require_rows if name in ("i", "j") else self._require_finite)
+
+    def _field(self, path, first, last, require):
         if path not in self._kept:
-            values = self.run._read(path, self.rows.start, self.rows.stop)
-            if name in ("i", "j"):
-                self._require_rows(values, path)
-            else:
-                self._require_finite(values, path)
+            values = self.run._read(path, first, last)
+            require(values, path)
             self._kept[path] = values
         return self._kept[path]
 
@@ -454,20 +442,22 @@ class _Block:
         frame = np.searchsorted(self.offset, contact, side="right") - 1
         return f"contact {contact - self.offset[frame]} of frame {self.first + frame}"
 
-    def _require_finite(self, values, path, grains=False):
-        """Absent grains have NaN in all fields."""
+    def _require_finite(self, values, path):
         good = np.isfinite(values)
+        if not good.all():
+            self._fail_at(self._place(np.argwhere(~good)[0][0]), path)
+
+    def _require_finite_grains(self, values, path):
+        """Absent grains have NaN in all fields."""
+        good = np.isfinite(values).reshape(*values.shape[:2], -1)
         if good.all():
             return
-        if grains:
-            good = good.reshape(*values.shape[:2], -1)
-            bad = ~(good.all(axis=2) | (self.run._come_and_go & np.isnan(values).reshape(good.shape).all(axis=2)))
-            if not bad.any():
-                return
+        bad = ~(good.all(axis=2) | (self.run._come_and_go & np.isnan(values).reshape(good.shape).all(axis=2)))
+        if bad.any():
             frame, grain = np.argwhere(bad)[0]
-            place = f"grain {grain} of frame {self.first + frame}"
-        else:
-            place = self._place(np.argwhere(~good)[0][0])
+            self._fail_at(f"grain {grain} of frame {self.first + frame}", path)
+
+    def _fail_at(self, place, path):
         self.run._fail(f"/{path} is not a finite number in {place}; the frame is damaged: take a copy that is "
                        "whole, or leave the frame out with begin or end")
 
@@ -1220,23 +1210,20 @@ def _parse_rule(rule):
     raise ValueError(f"{rule!r} is not a rule: size, contact-point, half, drop, uniform:P (0 to 1) or power:Q")
 
 
-def _larger_parts(table, names, rule, number):
-    """What the rule gives of mixed contacts to the larger and to the smaller grain, N m, as functions of the pair;
-    None where it gives them to nobody."""
+def _parts_of(table, names, rule, number, a, b):
+    """What the rule gives of the mixed contacts of species a < b to the larger and to the smaller grain, N m; nothing
+    where it gives them to nobody."""
+    of = lambda stem: table.tensor(names.pair(stem, a, b))
     if rule == "drop":
-        return None
+        return 0, 0
     if rule in ("half", "uniform"):
-        if names.pair("ML", 0, 1) + "_xx" in table:  # made with --assign grain: either part at its own grain
-            return (lambda a, b: number * table.tensor(names.pair("ML", a, b)),
-                    lambda a, b: (1 - number) * table.tensor(names.pair("MS", a, b)))
-        return (lambda a, b: number * table.tensor(names.pair("M", a, b)),
-                lambda a, b: (1 - number) * table.tensor(names.pair("M", a, b)))
-    stem = {"size": "Msize", "contact-point": "Mcp", "power": "Mpower"}[rule]
+        at_centres = names.pair("ML", 0, 1) + "_xx" in table  # made with --assign grain: either part at its own grain
+        return number * of("ML" if at_centres else "M"), (1 - number) * of("MS" if at_centres else "M")
     if rule == "power" and float(table.header.get("power", "nan")) != number:
         raise Error(f"{table.name}: its column Mpower_* was not made with power:{number:g}; make the table with "
                     f"--partition power:{number:g}, or contact_sums(power={number:g})")
-    return (lambda a, b: table.tensor(names.pair(stem, a, b)),
-            lambda a, b: table.tensor(names.pair("M", a, b)) - table.tensor(names.pair(stem, a, b)))
+    larger = of({"size": "Msize", "contact-point": "Mcp", "power": "Mpower"}[rule])
+    return larger, of("M") - larger
 
 
 def partial_stress(table, rule="size", base=None):
@@ -1253,16 +1240,15 @@ def partial_stress(table, rule="size", base=None):
     base = base or table.header.get("base", "contact-point")
     if base not in ("contact-point", "half", "none"):
         raise ValueError(f"base = {base!r}: contact-point, half or none")
-    parts = _larger_parts(table, names, rule, number)
     at_centres = rule in ("half", "uniform") and names.pair("ML", 0, 1) + "_xx" in table
     own = [table.tensor(names.halves(k) if at_centres else names.inside(k)) for k in range(count)]
     dropped = np.zeros_like(own[0])
     for a, b in _pairs(count):
-        if parts is None:
+        larger, smaller = _parts_of(table, names, rule, number, a, b)
+        own[b] += larger
+        own[a] += smaller
+        if rule == "drop":
             dropped += table.tensor(names.pair("M", a, b))
-        else:
-            own[b] += parts[0](a, b)
-            own[a] += parts[1](a, b)
     for k in range(count):
         if base == "contact-point":
             own[k] += table.tensor(names.base("A", k))
