@@ -263,10 +263,7 @@ class Run:
         for name in ("small_diameter", "large_diameter", "step", "gravity"):
             if name not in self.parameters:
                 self._fail(f"/parameters/{name} is missing: {_FOREIGN}")
-        self.small_diameter = self.parameters["small_diameter"]
-        self.large_diameter = self.parameters["large_diameter"]
-        self.step = self.parameters["step"]
-        self.gravity = self.parameters["gravity"]
+            setattr(self, name, self.parameters[name])
         self.history = self.parameters.get("history", "").splitlines()
         if not 0 < self.step < math.inf:
             self._fail(f"/parameters/step is {self.step}; it should be positive")
@@ -306,13 +303,10 @@ class Run:
 
     def _require_shapes(self):
         d, grains, frames, contacts = self.dimension, len(self.radius), len(self), int(self._offset[-1])
-        spin = (grains,) if d == 2 else (grains, 3)
-        shapes = {"position": (grains, d), "velocity": (grains, d), "angular_velocity": spin, "force": (grains, d),
-                  "image": (grains, d)}
-        rows = {f"particles/grains/{name}/value": (frames, shape) for name, shape in shapes.items()}
         self.has_force = "force" in self._file["particles/grains"]
-        if not self.has_force:
-            del rows["particles/grains/force/value"]
+        of_grains = ["position", "velocity", "image"] + ["force"] * self.has_force
+        rows = {f"particles/grains/{name}/value": (frames, (grains, d)) for name in of_grains}
+        rows["particles/grains/angular_velocity/value"] = frames, (grains,) if d == 2 else (grains, 3)
         for name, shape in {"i": (), "j": (), "force": (d,), "branch": (d,), "gap": ()}.items():
             rows[f"grseg/contacts/{name}"] = (contacts, shape)
         for path, (count, shape) in rows.items():
@@ -577,13 +571,9 @@ def _longest_interval(run, gaps):
 
 def _empty_part(steps, longest, begin, length):
     """For how many steps of a window no frame stands; what precedes the first one counts as filled."""
-    end, next_one = begin + length, int(np.searchsorted(steps, begin, side="right"))
-    filled = int(steps[0]) if next_one == 0 else int(steps[next_one - 1]) + longest
-    empty = 0
-    for step in steps[next_one:int(np.searchsorted(steps, end))]:
-        empty += max(0, int(step) - max(filled, begin))
-        filled = int(step) + longest
-    return empty + max(0, end - max(filled, begin))
+    before, inside = steps[steps <= begin], steps[(steps > begin) & (steps < begin + length)]
+    filled = np.append(before[-1] + longest if len(before) else steps[0], inside + longest)
+    return np.maximum(np.append(inside, begin + length) - np.maximum(filled, begin), 0).sum()
 
 
 def _cut_into_windows(run, length, begin, end, stride):
@@ -1086,14 +1076,8 @@ def _bed_line(run):
 
 def _acting_options(command):
     """The options of a restart that act on the motion, with their values, and since when."""
-    acting, takes = "", False
-    for word in command.split():
-        option = word.startswith("--")
-        if option:
-            takes = word[2:].split("=")[0] not in _OF_NO_EFFECT
-        if takes:
-            acting += word + " "
-        takes = takes and option
+    words = re.findall(r"(?<!\S)(--([^\s=]+)\S*)(?:\s+(?!--)(\S+))?", command)
+    acting = "".join(f"{option} {value} " if value else f"{option} " for option, name, value in words if name not in _OF_NO_EFFECT)
     since = command.find(" (from t = ")
     return acting and acting + (command[since:] if since >= 0 else "") + "\n"
 
