@@ -32,4 +32,3 @@ plot rules using "phi":(only("size", column("B"))):"B_low":"B_high" with yerrorb
      rules using (column("phi") + 0.01):(only("contact-point", column("B"))):"B_low":"B_high" with yerrorbars pt 6 lc rgb "#17becf" title "contact-point", \
      rules using "phi":(only("half", column("B"))):"B_low":"B_high" with yerrorbars pt 5 lc rgb "#d62728" title "half", \
      rules using "phi":(only("half", column("neutral"))) with lines dt 2 lc rgb "black" title "half, neutral contacts"
-unset multiplot

@@ -30,4 +30,3 @@ do for [quantity in "contact kinetic"] {
   plot for [k = 1:3] fits using (only(tilted(0) && takes(quantity, word(stages, k)), column("slope") + 0.12 * (k - 2))):(sign * column(name)):(sign * column(name.(sign > 0 ? "_low" : "_high"))):(sign * column(name.(sign > 0 ? "_high" : "_low"))) with yerrorbars pt 7 lc rgb word(colours, k) notitle, \
        paper with lines dt 2 lc rgb "black" notitle
 }
-unset multiplot

@@ -49,4 +49,3 @@ plot scan using "p":(column("low") - column("neutral")):(column("high") - column
      scan using "p":(column("B") - column("neutral")) with lines lw 2 lc rgb blue title "this flow", \
      for [rule in marked ? rules : ""] "+" using (cell(rule, "share")):(cell(rule, "B") - cell(rule, "neutral")) every ::0::0 \
        with points pt 7 ps 1.2 lc rgb red notitle
-unset multiplot

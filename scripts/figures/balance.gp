@@ -27,4 +27,3 @@ set arrow from 0.034, graph 0 to 0.034, graph 1 nohead dt 2 lc rgb "#1f77b4"
 set arrow from 0.373, graph 0 to 0.373, graph 1 nohead dt 2 lc rgb "#d62728"
 plot profile using "B":y:"e_B" with xerrorbars pt 7 lc rgb "#1f77b4" title "B", \
      profile using (-column("B_kappa")):y:"e_B_kappa" with xerrorbars pt 5 lc rgb "#d62728" title "-B_κ"
-unset multiplot

@@ -38,4 +38,3 @@ set border 11
 set key top right title ""
 plot table using "phi":(column("B_over_c") * 1e4):(column("B_over_c_low") * 1e4):(column("B_over_c_high") * 1e4) skip 0 with yerrorbars pt 7 lc rgb "#0072b2" title "B/c", \
      table using (column("phi") + 0.012):(column("d_over_c") * 1e4):(column("d_over_c_low") * 1e4):(column("d_over_c_high") * 1e4) axes x1y2 with yerrorbars pt 5 lc rgb "#d55e00" title "d/c"
-unset multiplot

@@ -61,4 +61,3 @@ set label "dashed: Staron \\& Phillips,\nall mixtures" at 0.8,0.0238 right tc rg
 plot 0.0345 with lines dt 2 lc rgb "black", \
      fits using (mixture("size") ? column("phi") : NaN):"B":"B_low":"B_high" \
        with yerrorbars pt 7 ps 1.1 lw 1.5 lc rgb blue
-unset multiplot

@@ -23,4 +23,3 @@ set format x "10^{%T}"
 set arrow from 1e-4, graph 0 to 1e-4, graph 1 nohead dt 2 lc rgb "black"
 set label "\"four orders of magnitude\"" at 1.2e-4, 4 font ",10"
 plot profile using (in("Kyy/syy")):y:"e_Kyy/syy" with xerrorbars pt 7 lc rgb "#1f77b4" notitle
-unset multiplot

@@ -32,4 +32,3 @@ plot time using (middle(0)):(bed(column("f_depth_L"))) with lines lw 2 lc rgb la
      "" using (middle(0)):(bed(column("f_depth_neutral_L"))) with lines lw 1 dt 2 lc rgb large title "neutral, π r/z_L", \
      "" using (middle(0)):(bed(column("f_depth_S"))) with lines lw 2 lc rgb small title "f_S", \
      "" using (middle(0)):(bed(column("f_depth_neutral_S"))) with lines lw 1 dt 2 lc rgb small title "neutral, π/z_S"
-unset multiplot

@@ -30,4 +30,3 @@ set ylabel "probability density"
 last(value) = stringcolumn("y0[m]") eq "nan" && column("t0[s]") >= 30 ? value : NaN
 plot for [k = 1:3] folder."/forces.tsv" using (column("x0") + 0.05):(last(column("P_".word("SS LS LL", k)))) \
        with lines lw 2 lc k title word("SS LS LL", k)
-unset multiplot

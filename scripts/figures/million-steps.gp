@@ -21,4 +21,3 @@ set yrange [1e-17:1e-10]
 plot folder."/million-steps-26.tsv" every ::1 using 1:4 with points pt 7 ps 0.2 lc rgb "#d62728" title "26°", \
      folder."/million-steps-21.tsv" every ::1 using 1:4 with points pt 7 ps 0.2 lc rgb "#1f77b4" title "21°", \
      1e-12 with lines dt 2 lc rgb "black" title "bound"
-unset multiplot

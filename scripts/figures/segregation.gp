@@ -50,4 +50,3 @@ segregation(dummy) = 1e3 * (solid("q_L[m/s]") + solid("D[m^2/s]") * solid("dphi_
 plot rows("!=") using (bin("phi_L")):(1e3 * solid("q_L[m/s]")) smooth unique with linespoints pt 6 lc rgb "#1f77b4" title "q_L", \
      rows("!=") using (bin("phi_L")):(segregation(0)) smooth unique with linespoints pt 7 lc rgb "#d62728" title "q_L + D dφ_L/dy", \
      1e3 * S * x * (1 - x) with lines lw 2 lc rgb "black" title sprintf("S φ_L φ_S, S = %.2f mm/s", 1e3 * S)
-unset multiplot

@@ -24,4 +24,3 @@ do for [time in times] {
   plot table using (column("t[s]") == real(time) ? column("x[m]") : NaN):"y[m]":"r[m]":(colour(column("species"))) \
          with circles fc rgb variable
 }
-unset multiplot

@@ -16,4 +16,3 @@ do for [quantity in "z f zf"] {
   plot flows using (1e4 * column("step")):(steps(column(quantity."_L"))):(column("hw_".quantity."_L")) with yerrorbars pt 7 lc rgb large title "large", \
        flows using (1e4 * column("step")):(steps(column(quantity."_S"))):(column("hw_".quantity."_S")) with yerrorbars pt 7 lc rgb small title "small"
 }
-unset multiplot

@@ -15,8 +15,7 @@ from random_scenes.scenes import multiple, random_scene
 from random_scenes.trajectory import Trajectory
 
 LONGEST = 600  # s of wall time of one program; nearly all take less than one
-OUTCOMES = ["held", "reported", "doubted", "stopped", "refused", "failed"]
-MEANINGS = {"held": "every invariant held", "reported": "the tolerance was missed, which exit code 4 says",
+OUTCOMES = {"held": "every invariant held", "reported": "the tolerance was missed, which exit code 4 says",
             "doubted": "the summary has a line `doubt`", "stopped": "exit code 1 and one sentence",
             "refused": "exit code 2 and one sentence", "failed": "an invariant is broken without a word, or a program failed"}
 # Datasets that must have the same bytes.
@@ -169,8 +168,8 @@ def without_numbers(sentence):
 def print_totals(trials, seconds):
     counts = collections.Counter(trial.outcome for trial in trials)
     print(f"{len(trials)} scenes in {seconds:.0f} s, {seconds / max(1, len(trials)):.2f} s each")
-    for outcome in OUTCOMES:
-        print(f"  {outcome:9} {counts[outcome]:5}   {MEANINGS[outcome]}")
+    for outcome, meaning in OUTCOMES.items():
+        print(f"  {outcome:9} {counts[outcome]:5}   {meaning}")
     ended = counts["stopped"] + counts["refused"]
     print(f"  {100 * ended / max(1, len(trials)):.0f} % stopped or refused, of them:")
     kinds = collections.Counter((t.outcome, without_numbers(t.sentence)) for t in trials if t.sentence)

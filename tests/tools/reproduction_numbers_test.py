@@ -155,7 +155,7 @@ class Reproduction(unittest.TestCase):
         self.assertAlmostEqual(verdicts.difference(measured.Value(0.3 + 0.1 / math.sqrt(12), 0, 1, 0), rounded), 1)
         # From the edge of a claim; a range without a number has no place to count from.
         self.assertAlmostEqual(verdicts.difference(ours, statements.above("> 9", 9, "")), -2)
-        self.assertTrue(math.isnan(verdicts.difference(ours, statements.between("", 0, 1, ""))))
+        self.assertTrue(math.isnan(verdicts.difference(ours, statements.Statement("", 0, 1, ""))))
         self.assertTrue(math.isnan(verdicts.difference(measured.Value(3), rounded.__class__("", 0, 1, "", 0))))
 
     def test_the_standard_error_of_four_runs_is_that_of_three_degrees_of_freedom(self):

@@ -35,10 +35,6 @@ def number(text, value, tolerance, source, error=None, unit=None):
     return Statement(text, value - tolerance, value + tolerance, source, value, error)
 
 
-def between(text, low, high, source):
-    return Statement(text, low, high, source)
-
-
 def above(text, edge, source):
     return Statement(text, edge, math.inf, source)
 
@@ -66,7 +62,7 @@ B = number("0.034 to 0.035", 0.0345, 0.03, OPEN_B, error=FIT_ERROR)
 SIGN = above("\"supports\" segregation by gravity", 0, "the claim, for the mixture in which B is least certain")
 CONTROL = number("0 by symmetry", 0, 0.005, "a seventh of the paper's B")
 MIXED_MOST = number("\"can reach locally 50 %\"", 0.5, 0.04, "a figure without numbers: 8 % of its maximum", unit=0.01)
-MIXED_MOST_AT = between("neutral 2/3", 0.55, 0.72, "a flat maximum: neutral contacts stay within 0.03 of it")
+MIXED_MOST_AT = Statement("neutral 2/3", 0.55, 0.72, "a flat maximum: neutral contacts stay within 0.03 of it")
 MIXED_CURVE = number("neutral 4 φ_L φ_S/(1 + φ_S)²", 0, 0.04, "a figure without numbers: 8 % of its maximum")
 B_PRESSURE = number("0.045 to 0.047", 0.046, 0.03, OPEN_B, error=FIT_ERROR)
 PRESSURE_LESS_YY = number("0.011", 0.011, 0.015, "half of the room of B: same fit, same layers", error=FIT_ERROR)
@@ -90,15 +86,15 @@ KINETIC_EXPONENT = number("1.0057", 1.0057, 0.02, "open in the paper: fit", unit
 # d(half the sum of 1 - s and (1 - s)/s)/ds = -0.74 at s = 1.4413.
 B_KAPPA = number("−0.373", -0.373, 0.04, OPEN_B_KAPPA, error=0.74 * 0.0022)
 B_KAPPA_OVER_B = above("\"more than 10 times larger\" (0.373/0.0345 = 10.8)", 10, "the claim")
-KINETIC_OVER_CONTACT = between("\"about four orders of magnitude smaller\"", 10 ** -4.5, 10 ** -3.5, "a factor of ten about 1e-4")
+KINETIC_OVER_CONTACT = Statement("\"about four orders of magnitude smaller\"", 10 ** -4.5, 10 ** -3.5, "a factor of ten about 1e-4")
 FIGURE_4_RISES = above("\"monotonous increase\"; 0.205", 0, "the claim, for the line through the six slopes")
 FIGURE_5 = {
     "": (number("2.2", 2.2, 2.2, OPEN_PI, unit=0.1), number("3", 3, 3, OPEN_PI, unit=1)),
     "_L": (number("1.9", 1.9, 1.9, OPEN_PI, unit=0.1), number("5", 5, 5, OPEN_PI, unit=1)),
     "_S": (number("6.4", 6.4, 6.4, OPEN_PI, unit=0.1), below("\"less than 9 %\"", 9, "the claim")),
 }
-START = between("large below: 0.225", 0.22, 0.24, "geometry and packing")
-END = between("separated: 0.775", 0.65, 0.76, "77 to 97 % of the way")
+START = Statement("large below: 0.225", 0.22, 0.24, "geometry and packing")
+END = Statement("separated: 0.775", 0.65, 0.76, "77 to 97 % of the way")
 Z_ORDER = above("z_L > z_S always", 1, ORDER)
 Z_MOST = above("\"maximum when the mixing is maximum\"", 1, "the claim: largest ratio over that of the first and of the last windows")
 F_ORDER = above("f_L > f_S, also \"as segregation proceeds\"", 1, ORDER)
