@@ -48,12 +48,8 @@ def fit(options, case, runs, rules):
         words += ["--over", "compositions"]
     if rules:
         words += ["--partition", rules]
-    try:
-        rows = tables.fits(options, *(run.path(kind) for run in runs), *words)
-    except RuntimeError as trouble:
-        print(f"fits: {case['set']}, {case['stage']}, {case['heights']}: {trouble}", file=sys.stderr)
-        return []
-    return [{**case, **row} for row in rows]
+    label = f"fits: {case['set']}, {case['stage']}, {case['heights']}"
+    return [{**case, **row} for row in tables.fits_if_any(options, label, *(run.path(kind) for run in runs), *words)]
 
 
 def fits(options):
@@ -115,11 +111,7 @@ def fitted(options, runs, quantity, *words):
     """B with its interval, for each rule; None if tables are missing or insufficient."""
     if quantity is None or not runs or not all(run.has(quantity) for run in runs):
         return None
-    try:
-        rows = tables.fits(options, *(run.path(quantity) for run in runs), *WHERE, "--bootstrap", options.bootstrap, *words)
-    except RuntimeError as trouble:
-        print(f"choices: {trouble}", file=sys.stderr)
-        return None
+    rows = tables.fits_if_any(options, "choices", *(run.path(quantity) for run in runs), *WHERE, "--bootstrap", options.bootstrap, *words)
     return [tuple(row[f"B{end}"] for end in ("", "_windows_low", "_windows_high")) for row in rows]
 
 

@@ -19,10 +19,9 @@ def fitted(options, runs, quantity, column, *words, table=None):
     if not runs or not all(run.has(table) for run in runs):
         return NO_FIT
     words = [*words, *tables.sizes_of(runs), *(["--over", "flows"] if len(tables.by_flow(runs)) > 1 else [])]
-    try:
-        rows = tables.fits(options, *(run.path(table) for run in runs), "--quantity", quantity, "--quiet", "--bootstrap", options.bootstrap, *words)
-    except RuntimeError as trouble:
-        print(f"questions: {runs[0].flow}: {trouble}", file=sys.stderr)
+    rows = tables.fits_if_any(options, f"questions: {runs[0].flow}", *(run.path(table) for run in runs), "--quantity", quantity, "--quiet",
+                              "--bootstrap", options.bootstrap, *words)
+    if not rows:
         return NO_FIT
     if len(rows) != 1:
         sys.exit(f"questions: {runs[0].flow}: grseg-fit printed {len(rows)} rules where one was asked for")

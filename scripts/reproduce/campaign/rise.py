@@ -142,10 +142,10 @@ def trend_where_alike(mixtures, names):
     return above / below
 
 
-def alike(label, mixtures, names):
-    upper = [pair for pair in mixtures if pair[0] >= FROM]
-    found = {label: trend_where_alike(mixtures, names)}
-    return {**found, f"upper_{label}": trend_where_alike(upper, names)} if len(upper) > 1 else found
+def both(label, mixtures, slope):
+    """A slope over Phi_L of all mixtures, and of those from FROM on."""
+    parts = {label: mixtures, f"upper_{label}": [pair for pair in mixtures if pair[0] >= FROM]}
+    return {name: slope(part) for name, part in parts.items() if len(part) > 1}
 
 
 def mixture(layers):
@@ -167,11 +167,9 @@ def trends(mixtures, long):
         part["one"] = found["beyond"] * part["mixed"] * part["geometry"]
         found[f"one_{phi:g}"] = part["one"]
     for name in parts[0][1]:
-        for label, points in (("trend", parts), ("upper_trend", [(phi, part) for phi, part in parts if phi >= FROM])):
-            if len(points) > 1:
-                found[f"{label}_{name}"] = statistics.linear_regression(
-                    [phi for phi, _ in points], [part[name] for _, part in points]).slope
+        found |= both(f"trend_{name}", parts, lambda points: statistics.linear_regression(
+            [phi for phi, _ in points], [part[name] for _, part in points]).slope)
     for names in ALIKE:
-        found.update(alike("_".join(("alike",) + names), mixtures, names))
-    found.update(alike("alike_phi_long", long, ("phi",)))
+        found |= both("_".join(("alike",) + names), mixtures, lambda part: trend_where_alike(part, names))
+    found |= both("alike_phi_long", long, lambda part: trend_where_alike(part, ("phi",)))
     return {f"rise_{name}": value for name, value in found.items()}

@@ -112,3 +112,12 @@ def program(options, name, *words, columns=None):
 def fits(options, *words):
     """What grseg-fit says, its fit of the paper too: one dictionary per rule and flow."""
     return shared.by_rule(program(options, "grseg-fit", *words, "--fit", "paper")[1])
+
+
+def fits_if_any(options, label, *words):
+    """The same; none where there is nothing to fit, which is told on standard error."""
+    try:
+        return fits(options, *words)
+    except RuntimeError as trouble:
+        print(f"{label}: {trouble}", file=sys.stderr)
+        return []
