@@ -51,15 +51,14 @@ class Copy:
         os.makedirs(self.tree, exist_ok=True)
         for part in [*FOLDERS, "CMakeLists.txt"]:
             mirror(part, f"{self.tree}/{part}")
+        done = run_quietly(["cmake", "-S", self.tree, "-B", f"{self.tree}/build", "-G", "Ninja",
+                            "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=ON", "-DBUILD_SHARED_LIBS=ON",
+                            "-DGRSEG_JOIN_SOURCES=OFF",  # a fault costs one file, not a room
+                            "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON", *self.options])
+        if done.returncode != 0:
+            raise SystemExit(done.stdout)
 
     def build(self, targets):
-        if not os.path.exists(f"{self.tree}/build/build.ninja"):
-            done = run_quietly(["cmake", "-S", self.tree, "-B", f"{self.tree}/build", "-G", "Ninja",
-                                "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=ON", "-DBUILD_SHARED_LIBS=ON",
-                                "-DGRSEG_JOIN_SOURCES=OFF",  # a fault costs one file, not a room
-                                "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON", *self.options])
-            if done.returncode != 0:
-                raise SystemExit(done.stdout)
         return run_quietly(["cmake", "--build", f"{self.tree}/build", "-j", str(self.jobs), "--target", *targets])
 
     def must_build(self, targets, what=""):
