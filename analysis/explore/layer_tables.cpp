@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/explore/layer_tables.hpp"
-
 #include "analysis/balance/balance_table.hpp"
 #include "analysis/balance/momentum_balance.hpp"
+#include "analysis/explore/run_of_page.hpp"
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/micro/derived_quantities.hpp"

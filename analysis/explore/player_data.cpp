@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/player_data.hpp"
 
-#include "analysis/explore/quantisation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

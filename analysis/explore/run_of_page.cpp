@@ -2,7 +2,6 @@
 #include "analysis/explore/run_of_page.hpp"
 
 #include "analysis/check/physics_check.hpp"
-#include "analysis/explore/layer_tables.hpp"
 #include "analysis/explore/player_data.hpp"
 #include "analysis/explore/shown_run.hpp"
 #include "analysis/explore/stress_tables.hpp"

@@ -50,19 +50,15 @@ class WallsInPlane {
  public:
   explicit WallsInPlane(double plane) : plane_(plane) {}
 
-  /// Learns from the contacts of a frame.
-  void add(const Frame<D>& frame)
+  /// All that are known with the contacts of one more frame.
+  std::vector<ShownWall> with(const Frame<D>& frame)
   {
     walls_.add(frame);
     for (const auto& [number, wall] : walls_.all()) numbers_.try_emplace(number, numbers_.size());
-  }
-  std::vector<ShownWall> all() const
-  {
     std::vector<ShownWall> lines(numbers_.size());
     for (const auto& [number, wall] : walls_.all()) lines[numbers_.at(number)] = line_of(wall);
     return lines;
   }
-  std::size_t size() const { return numbers_.size(); }
   /// As contacts name it: j < 0 of the file becomes one of few.
   std::int32_t renumbered(std::int32_t j) const
   {
@@ -92,9 +88,8 @@ std::vector<std::size_t> in_order(const ContactList<D>& contacts)
 {
   std::vector<std::size_t> order(contacts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(contacts.i[a], contacts.j[a]) < std::pair(contacts.i[b], contacts.j[b]);
-  });
+  std::ranges::sort(order, {},
+                    [&](std::size_t k) { return std::pair(contacts.i[k], contacts.j[k]); });
   return order;
 }
 
@@ -137,22 +132,12 @@ double contact_point_from_size(const Grains& grains, const ContactList<D>& conta
   return largest;
 }
 
-template <class T>
-std::vector<T> picked(const std::vector<T>& all, const std::vector<std::uint32_t>& rows)
-{
-  std::vector<T> some;
-  some.reserve(rows.size());
-  for (const auto row : rows) some.push_back(all[row]);
-  return some;
-}
-
 /// The rows of the grains that at least one frame shows.
 std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std::size_t grains)
 {
   std::vector<std::uint32_t> rows;
   for (std::size_t g = 0; g < grains; ++g)
-    if (std::any_of(frames.begin(), frames.end(),
-                    [g](const ShownFrame& frame) { return !std::isnan(frame.x[g]); }))
+    if (!std::ranges::all_of(frames, [g](const auto& frame) { return std::isnan(frame.x[g]); }))
       rows.push_back(static_cast<std::uint32_t>(g));
   return rows;
 }
@@ -161,7 +146,10 @@ std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std
 void renumber(ShownFrame& frame, const std::vector<std::uint32_t>& rows,
               const std::vector<std::int32_t>& number)
 {
-  for (auto* list : {&frame.x, &frame.y, &frame.radius}) *list = picked(*list, rows);
+  for (auto* list : {&frame.x, &frame.y, &frame.radius}) {
+    for (std::size_t g = 0; g < rows.size(); ++g) (*list)[g] = (*list)[rows[g]];  // rows rise
+    list->resize(rows.size());
+  }
   for (auto* list : {&frame.i, &frame.j})
     for (auto& grain : *list)
       if (grain >= 0) grain = number[static_cast<std::size_t>(grain)];
@@ -194,11 +182,10 @@ ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
     shown.step = frame.step;
     shown.time = frame.time;
     shown.gravity = gravity.at(frame.time).template head<2>();
-    walls.add(frame);
-    if (walls.size() > most_walls)
+    shown.walls = walls.with(frame);
+    if (shown.walls.size() > most_walls)
       throw FormatError(fmt::format("{}: frame {} (t = {:g} s): there are more than {} walls",
                                     printable(run.path()), index, frame.time, most_walls));
-    shown.walls = walls.all();
     show_grains(grains, frame, plane, shown);
     show_contacts(frame, walls, shown);
     all.contact_point_from_size =

@@ -3,7 +3,6 @@
 
 #include "analysis/frames/contacts.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/render/local_composition.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/length.hpp"
@@ -31,7 +30,7 @@ constexpr FieldDefinition definitions[] = {
     {FieldKind::speed, "speed", "modulus of the velocity", FieldEnds::zero_to_most, "speed", "m/s",
      velocity},
     {FieldKind::velocity, "velocity", "component of the velocity: x (default), y or z",
-     FieldEnds::both_signs, "velocity along", "m/s", velocity, "AXIS"},
+     FieldEnds::both_signs, "velocity along", "m/s", velocity, "[:AXIS]"},
     {FieldKind::spin, "spin", "angular velocity about z, counter-clockwise", FieldEnds::both_signs,
      "spin", "rad/s", velocity},
     {FieldKind::pressure, "pressure",
@@ -43,11 +42,11 @@ constexpr FieldDefinition definitions[] = {
     {FieldKind::composition, "composition",
      "share of the largest species in the grains around, weighed by Lucy's function of radius "
      "LENGTH (default: 2dL)",
-     FieldEnds::zero_to_one, "share of", "", nothing, "LENGTH"},
+     FieldEnds::zero_to_one, "share of", "", nothing, "[:LENGTH]"},
     {FieldKind::displacement, "displacement", "distance from where the grain was at TIME (s)",
-     FieldEnds::zero_to_most, "displacement since t =", "m", image, "TIME", true},
+     FieldEnds::zero_to_most, "displacement since t =", "m", image, ":TIME"},
     {FieldKind::rise, "rise", "y minus what it was at TIME (s)", FieldEnds::both_signs,
-     "rise since t =", "m", nothing, "TIME", true},
+     "rise since t =", "m", nothing, ":TIME"},
 };
 
 constexpr const char* species_word = "species";
@@ -197,12 +196,8 @@ std::span<const FieldDefinition> field_definitions()
 std::string list_of_fields()
 {
   std::string text = fmt::format("{}: the species of each grain", species_word);
-  for (const auto& field : definitions) {
-    const bool takes_one = *field.argument != '\0';
-    text += fmt::format("\n{}{}{}{}: {}", field.word, takes_one && !field.needs_argument ? "[" : "",
-                        takes_one ? fmt::format(":{}", field.argument) : "",
-                        takes_one && !field.needs_argument ? "]" : "", field.meaning);
-  }
+  for (const auto& field : definitions)
+    text += fmt::format("\n{}{}: {}", field.word, field.argument, field.meaning);
   return text;
 }
 
@@ -223,7 +218,7 @@ FieldChoice parse_field(const std::string& text)
     if (word == field.word) {
       if (*field.argument == '\0' && colon != std::string::npos)
         throw UsageError(fmt::format("--color {}: nothing follows {}", text, word));
-      if (field.needs_argument && argument.empty())
+      if (field.needs_argument() && argument.empty())
         throw UsageError(fmt::format("--color {}: say since when, as in {}:0", text, word));
       return {&field, argument};
     }

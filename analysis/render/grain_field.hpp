@@ -44,9 +44,10 @@ struct FieldDefinition {
   const char* unit;   // in two dimensions; "": a number
   /// What must be read: `force` stands for how often grains have crossed the cell.
   TrajectoryReader::Fields needs;
-  /// What may follow the word behind a colon, or must; "": nothing.
+  /// What may follow the word behind a colon, "[:AXIS]", or must, ":TIME"; "": nothing.
   const char* argument = "";
-  bool needs_argument = false;
+
+  bool needs_argument() const { return *argument == ':'; }
 };
 
 /// All fields, in the order of --help.
@@ -87,6 +88,15 @@ class GrainField {
   std::string title_;
   std::function<std::vector<double>(const Frame<D>&)> values_;
 };
+
+/// The share of the grains of species `of` in the area or volume of mobile grains about each mobile
+/// grain: sum_of A_j w(r_ij)/sum A_j w(r_ij), where A is a grain's area or volume, r the distance of
+/// centres (m), and w Lucy's function (1 + 3u)(1 - u)^3 of u = r/radius, 0 from u = 1 on. The grain
+/// itself is among them, and so are all images within the radius, which is positive and no longer than
+/// a period. NaN for boundary grains and those that are absent.
+template <int D>
+std::vector<double> local_composition(const Grains& grains, const Frame<D>& frame, const Box& box,
+                                      Species of, double radius);
 
 /// The number of the frame whose time is nearest to `time` (s). UsageError naming `option` where
 /// that is farther away than the run's frames are from each other.

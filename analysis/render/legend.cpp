@@ -23,12 +23,9 @@ constexpr double half_letter = 0.35;
 
 std::string force_text(double newtons)
 {
-  struct Prefix {
-    double unit;
-    const char* name;
-  };
-  for (const auto& [unit, name] : {Prefix{1e6, "MN"}, Prefix{1e3, "kN"}, Prefix{1, "N"},
-                                   Prefix{1e-3, "mN"}, Prefix{1e-6, "µN"}})
+  constexpr std::pair<double, const char*> units[] = {
+      {1e6, "MN"}, {1e3, "kN"}, {1, "N"}, {1e-3, "mN"}, {1e-6, "µN"}};
+  for (const auto& [unit, name] : units)
     if (newtons >= unit * 0.9999) return fmt::format("{:.3g} {}", newtons / unit, name);
   return fmt::format("{:.3g} N", newtons);
 }
@@ -65,15 +62,16 @@ LegendItem gravity_arrow(const Canvas& canvas, const Vec2& down, const Colour& i
           }};
 }
 
-LegendItem species_key(const Canvas& canvas, SpeciesMark mark, const Colour& ink)
+LegendItem species_key(const Canvas& canvas, const std::string& name, const Colour& grain,
+                       const std::optional<Colour>& line, const Colour& ink)
 {
   const double em = canvas.em(), radius = 0.48 * em, before = 1.35 * em;
-  const double width = before + canvas.text_width(mark.name);
-  return {width, [=, mark = std::move(mark)](Canvas& page, const Vec2& at) {
+  const double width = before + canvas.text_width(name);
+  return {width, [=](Canvas& page, const Vec2& at) {
             const Vec2 centre = at + Vec2(radius, middle_line * em), side(radius, 0);
-            page.rimmed_disc(centre, radius, mark.grain, mix(mark.grain, ink, 0.35), em / 18);
-            if (mark.line) page.line(centre - side, centre + side, 0.24 * em, *mark.line);
-            page.text({at.x() + before, centre.y() + half_letter * em}, mark.name, ink);
+            page.rimmed_disc(centre, radius, grain, mix(grain, ink, 0.35), em / 18);
+            if (line) page.line(centre - side, centre + side, 0.24 * em, *line);
+            page.text({at.x() + before, centre.y() + half_letter * em}, name, ink);
           }};
 }
 
@@ -113,7 +111,8 @@ LegendItem colour_bar(const Canvas& canvas, const ColourScale& colours, const st
           }};
 }
 
-LegendItem force_key(const Canvas& canvas, ForceMarks marks, const Colour& ink)
+LegendItem force_key(const Canvas& canvas, double strong, double scale, const std::string& title,
+                     const Colour& ink)
 {
   const double em = canvas.em(), gap = 0.4 * em, between = 1.1 * em;
   struct Mark {
@@ -122,23 +121,23 @@ LegendItem force_key(const Canvas& canvas, ForceMarks marks, const Colour& ink)
   };
   std::vector<Mark> keys;
   double end = 0;
-  for (const double force : {round_below(marks.strong / 4), round_below(marks.strong)}) {
-    const double width = marks.scale * force, length = 1.6 * em + width;
+  for (const double force : {round_below(strong / 4), round_below(strong)}) {
+    const double width = scale * force, length = 1.6 * em + width;
     const auto text = force_text(force);
     keys.push_back({end, length, width, text});
     end += length + gap + canvas.text_width(text, small_text) + between;
   }
-  const double width = std::max(end - between, canvas.text_width(marks.title, small_text));
-  return {
-      width, [=, marks = std::move(marks)](Canvas& page, const Vec2& at) {
-        page.text(at + Vec2(0, (upper_line - 0.1) * em), marks.title, ink, small_text);
-        for (const auto& key : keys) {
-          const Vec2 place = at + Vec2(key.place, (lower_line - 0.45) * em);
-          page.capsule(place + Vec2(key.width / 2, 0), place + Vec2(key.length - key.width / 2, 0),
-                       key.width, true, marks.colour);
-          page.text(place + Vec2(key.length + gap, half_letter * em), key.text, ink, small_text);
-        }
-      }};
+  const double width = std::max(end - between, canvas.text_width(title, small_text));
+  return {width, [=](Canvas& page, const Vec2& at) {
+            page.text(at + Vec2(0, (upper_line - 0.1) * em), title, ink, small_text);
+            for (const auto& key : keys) {
+              const Vec2 place = at + Vec2(key.place, (lower_line - 0.45) * em);
+              page.capsule(place + Vec2(key.width / 2, 0),
+                           place + Vec2(key.length - key.width / 2, 0), key.width, true, ink);
+              page.text(place + Vec2(key.length + gap, half_letter * em), key.text, ink,
+                        small_text);
+            }
+          }};
 }
 
 LegendItem remark(const Canvas& canvas, std::string text, const Colour& ink)

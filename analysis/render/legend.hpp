@@ -30,12 +30,8 @@ LegendItem gravity_arrow(const Canvas& canvas, const Vec2& down, const Colour& i
 
 /// A disc in the colour of a species, its name, and over the disc the colour of its lines, where
 /// there are any.
-struct SpeciesMark {
-  std::string name;
-  Colour grain;
-  std::optional<Colour> line;
-};
-LegendItem species_key(const Canvas& canvas, SpeciesMark mark, const Colour& ink);
+LegendItem species_key(const Canvas& canvas, const std::string& name, const Colour& grain,
+                       const std::optional<Colour>& line, const Colour& ink);
 
 /// The colours of a field under its title, with numbers; pointed where numbers lie beyond. At most
 /// `most` px wide.
@@ -44,12 +40,8 @@ LegendItem colour_bar(const Canvas& canvas, const ColourScale& colours, const st
 
 /// Two lines of a round force, below `strong` N and about a quarter of that, under a title; `scale` in
 /// px/N.
-struct ForceMarks {
-  double strong = 0, scale = 0;
-  std::string title;
-  Colour colour;
-};
-LegendItem force_key(const Canvas& canvas, ForceMarks marks, const Colour& ink);
+LegendItem force_key(const Canvas& canvas, double strong, double scale, const std::string& title,
+                     const Colour& ink);
 
 /// A sentence.
 LegendItem remark(const Canvas& canvas, std::string text, const Colour& ink);

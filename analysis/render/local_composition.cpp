@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/render/local_composition.hpp"
-
 #include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/sums.hpp"
+#include "analysis/render/grain_field.hpp"
 
 #include <algorithm>
 #include <array>

@@ -17,15 +17,6 @@ namespace {
 // How much of the background is mixed into grains under lines, so that lines stand out.
 constexpr double pale_species = 0.62, pale_field = 0.45;
 
-template <int D>
-std::optional<GrainField<D>> field_of(const PictureSettings& settings, const TrajectoryReader& run,
-                                      const GroupedGrains& grains)
-{
-  if (settings.field.is_species()) return std::nullopt;
-  return std::optional<GrainField<D>>(std::in_place, settings.field, run, grains.grains,
-                                      grains.species, settings.rule);
-}
-
 /// As many decimals as tell the pictures' times from each other, or a single one from its neighbours.
 int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& frames)
 {
@@ -49,7 +40,10 @@ Picture<D>::Picture(const TrajectoryReader& run, const GroupedGrains& grains,
       grains_(grains),
       settings_(settings),
       theme_(settings_.theme),
-      field_(field_of<D>(settings, run, grains)),
+      field_(settings.field.is_species()
+                 ? std::nullopt
+                 : std::optional<GrainField<D>>(std::in_place, settings.field, run, grains.grains,
+                                                grains.species, settings.rule)),
       survey_(survey_frames<D>(run, frames, grains.grains, field_)),
       view_(settings.plane, run.box())
 {
@@ -183,7 +177,7 @@ std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, doub
         colour_bar(canvas, *style_.grains.scale, field_->title(), width - 2 * settings_.em, ink));
   } else {
     const auto add = [&](const std::string& name, const Colour& grain, std::optional<Colour> line) {
-      items.push_back(species_key(canvas, {name, grain, line}, ink));
+      items.push_back(species_key(canvas, name, grain, line, ink));
     };
     for (std::size_t k = 0; k < grains_.species.size(); ++k)
       add(grains_.species[k].name, style_.grains.of_species[k],
@@ -196,8 +190,8 @@ std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, doub
     const std::string title = settings_.split_lines
                                   ? fmt::format("normal force (rule: {})", settings_.rule.name())
                                   : "normal force";
-    items.push_back(force_key(
-        canvas, {strong_force_, scale * style_.lines->width_per_newton, title, ink}, ink));
+    items.push_back(
+        force_key(canvas, strong_force_, scale * style_.lines->width_per_newton, title, ink));
   }
   return items;
 }

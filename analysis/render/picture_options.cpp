@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -127,12 +128,9 @@ PageWidth parse_width(const std::string& text)
   constexpr double per_inch = 300, letters = 8, points_of_inch = 72, least = 64, most = 20000;
   constexpr double points_of_pixel = 0.75;  // as browsers have it
   if (text.empty()) return {std::nullopt, usual_em(usual_page), points_of_pixel};
-  struct Unit {
-    const char* name;
-    double inches;
-  };
-  for (const auto& [name, inches] :
-       {Unit{"mm", 1 / 25.4}, Unit{"cm", 1 / 2.54}, Unit{"in", 1}, Unit{"", 0}}) {
+  constexpr std::pair<const char*, double> units[] = {
+      {"mm", 1 / 25.4}, {"cm", 1 / 2.54}, {"in", 1}, {"", 0}};
+  for (const auto& [name, inches] : units) {
     if (!text.ends_with(name)) continue;
     const auto number = parse_number(text.substr(0, text.size() - std::string(name).size()));
     if (!number) continue;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -32,12 +33,8 @@ int exponent_of(double value)
   return static_cast<int>(std::floor(std::log10(value) + round_off));
 }
 
-struct LengthUnit {
-  double metres;
-  const char* name;
-};
-
-LengthUnit unit_of(double metres)
+/// In metres, and its name.
+std::pair<double, const char*> unit_of(double metres)
 {
   if (metres < 0.01 * (1 - round_off)) return {1e-3, "mm"};
   if (metres < 1 - round_off) return {1e-2, "cm"};

@@ -67,9 +67,9 @@ FAULTS = [
     ("address: the time is not in it", PAGE + "address.js", "if (Number.isFinite(time)) page.transport", "if (!time) page.transport"),
     ("address: each choice is a step to go back by", PAGE + "address.js", "window.history.replaceState", "window.history.pushState"),
     # What the page is given.
-    ("codes: rounded down", "analysis/explore/quantisation.hpp", "std::round((value - from()) / step())",
+    ("codes: rounded down", "analysis/explore/player_data.hpp", "std::round((value - from()) / step())",
      "std::floor((value - from()) / step())"),
-    ("codes: a step too few", "analysis/explore/quantisation.hpp", "return (to() - from()) / last;", "return (to() - from()) / none;"),
+    ("codes: a step too few", "analysis/explore/player_data.hpp", "return (to() - from()) / last;", "return (to() - from()) / none;"),
     ("pairs: the first grain of a frame counted from the last of the one before", "analysis/explore/player_data.cpp",
      "    std::int32_t before = 0;\n", "    static std::int32_t before = 0;\n"),
     ("forces: 0 need not lie between the bounds", "analysis/explore/player_data.cpp", "const Quantisation zero(0, 0);",

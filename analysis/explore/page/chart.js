@@ -2,6 +2,7 @@
 // The frame of a plot: an SVG that is as wide as its place, two scales, axes and their names.
 
 import {axisBottom, axisLeft, select} from "./d3.js";
+import {minus} from "./format.js";
 
 let charts = 0; // so far, for names
 
@@ -18,8 +19,6 @@ function setLabel(text, label) {
     shift = raised;
   }
 }
-
-const trueMinus = (text) => text.replace(/-/g, "−");
 
 /** Puts a line of an SVG upright at x. */
 export const upright = (mark, x, from, to) => mark.attr("x1", x).attr("x2", x).attr("y1", from).attr("y2", to);
@@ -75,7 +74,7 @@ export class Chart {
     this.yAxis.attr("transform", `translate(${left},0)`).call(ofY);
     for (const axis of [this.xAxis, this.yAxis])
       axis.selectAll(".tick text").text(function () {
-        return trueMinus(this.textContent);
+        return minus(this.textContent);
       });
     this.xLabel.attr("x", right).attr("y", this.height - 5);
     this.yLabel.attr("x", 4).attr("y", 11);

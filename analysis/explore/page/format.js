@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers and elements for people. Text reaches the page as text, never as HTML.
 
-const minus = (text) => text.replace(/-/g, "−");
+export const minus = (text) => text.replace(/-/g, "−");
 
 export function fixed(value, digits = 3) {
   return Number.isFinite(value) ? minus(value.toFixed(digits)) : "–";

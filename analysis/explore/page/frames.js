@@ -53,16 +53,8 @@ export class Frames {
   contacts(frame) {
     const {contact_offset, i, j, along, across} = this.arrays;
     const from = contact_offset[frame], to = contact_offset[frame + 1], n = to - from;
-    const all = {
-      i: new Int32Array(n),
-      j: new Int32Array(n),
-      xi: new Float32Array(n),
-      yi: new Float32Array(n),
-      xj: new Float32Array(n),
-      yj: new Float32Array(n),
-      along: new Float32Array(n),
-      across: new Float32Array(n),
-    };
+    const all = {i: new Int32Array(n), j: new Int32Array(n)};
+    for (const name of ["xi", "yi", "xj", "yj", "along", "across"]) all[name] = new Float32Array(n);
     const {length_x: length, periodic_x: periodic, bounds} = this.player;
     for (let k = 0, grain = 0; k < n; ++k) {
       grain += i[from + k];

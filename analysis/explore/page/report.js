@@ -29,7 +29,7 @@ function figure(caption, labels, domains, paths, lines = []) {
 /** B over the share p with its band. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
-  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
+  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
   const grid = fit.scan.p.map((share, k) => [share, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
   const domains = (_, y) => y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
   return figure(caption, {x: "share p", y: "B"}, domains, function* (x, y, chart) {

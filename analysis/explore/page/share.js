@@ -17,12 +17,6 @@ function powerOf(fit, p) {
   return Math.min(4, Math.max(0, Number.isNaN(Q) ? 1 : Q));
 }
 
-/** Why there is no B. */
-function whyNot(rule) {
-  if (rule.kind === "drop") return "the stresses of the two species do not add up to the whole";
-  return "in no layer and window do the two species bear a pressure";
-}
-
 /** The names of the codes alone: "MercuryDPM; YADE, PFC". */
 function shortUse(text) {
   return text
@@ -245,7 +239,7 @@ export class Share {
     const [low, high] = band;
     const sure = low > 0 || high < 0;
     byId("b-words").textContent = !Number.isFinite(B)
-      ? `No B: ${whyNot(rule)}.`
+      ? `No B: ${rule.kind === "drop" ? "the stresses of the two species do not add up to the whole" : "in no layer and window do the two species bear a pressure"}.`
       : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, by this rule${Number.isFinite(low) && !sure ? "; but the interval holds 0" : ""}.`;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/explore/quantisation.hpp"
+#include "analysis/explore/player_data.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 // Numbers of grains to colour them by.
 #include "analysis/render/grain_field.hpp"
 
-#include "analysis/render/local_composition.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/grain_builder.hpp"
 #include "tests/folder.hpp"
@@ -46,7 +45,7 @@ class GrainFields : public TestInFolder {
 TEST_F(GrainFields, BoundaryGrainsHaveNoNumber)
 {
   for (const auto& field : field_definitions()) {
-    const auto all = values(std::string(field.word) + (field.needs_argument ? ":0" : ""));
+    const auto all = values(std::string(field.word) + (field.needs_argument() ? ":0" : ""));
     ASSERT_EQ(all.size(), 3u);
     EXPECT_TRUE(std::isnan(all[2])) << field.word;
     EXPECT_FALSE(std::isnan(all[0])) << field.word;
