@@ -66,11 +66,11 @@ void write_page(const ToolInfo& info, const po::variables_map& values, ExploreSe
   const auto of_runs = tables_of_runs(tables, identities_of(inputs.runs));
   refuse_too_large(info, values, inputs.runs, s);
   std::vector<RunOfPage> runs;
-  for (std::size_t k = 0; k < inputs.runs.size(); ++k)
+  for (std::size_t k = 0; k < inputs.runs.size(); ++k) {
     runs.push_back(run_of_page(info, values, inputs.runs[k], of_runs[k], s, command));
-  for (std::size_t k = 0; k < runs.size(); ++k)
     runs[k].content["commands"] =
-        commands_of(inputs.runs[k], of_runs[k], s, runs.size() == 1 ? 0 : k + 1);
+        commands_of(inputs.runs[k], of_runs[k], s, inputs.runs.size() == 1 ? 0 : k + 1);
+  }
 
   Json content{{"program", program_line(info).second},
                {"command", printable(command)},

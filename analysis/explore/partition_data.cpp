@@ -34,12 +34,6 @@ constexpr GivenRule given_rules[] = {{"none", {Kind::uniform, 0}},
                                      {"contact_point", {Kind::contact_point}},
                                      {"drop", {Kind::drop}}};
 
-std::vector<PartitionRule> rules_to_read(std::vector<PartitionRule> rules)
-{
-  for (const auto& given : given_rules) rules.push_back(given.rule);
-  return rules;
-}
-
 void add_points(const FitData& data, const FitSettings& settings, const std::string& prefix,
                 BinaryArrays& arrays)
 {
@@ -203,7 +197,9 @@ std::vector<double> power_nodes()
 Json partition_data(const StressTables& input, const PartitionSettings& settings,
                     BinaryArrays& arrays)
 {
-  const auto selected = select(input.sums, rules_to_read(settings.rules), settings);
+  auto rules = settings.rules;
+  for (const auto& given : given_rules) rules.push_back(given.rule);
+  const auto selected = select(input.sums, rules, settings);
   const auto& pair = selected.samples.samples.front().pair;
   add_points(selected.samples, settings.fit, "", arrays);
   add_points(selected.layers, settings.fit, "layer_", arrays);

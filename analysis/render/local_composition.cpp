@@ -48,7 +48,16 @@ class NearGrains {
     const auto own = strip_of(centre);
     constexpr int across = D == 3 ? 1 : 0;
     for (int y = -1; y <= 1; ++y)
-      for (int z = -across; z <= across; ++z) visit_strip({own[0] + y, own[1] + z}, centre, book);
+      for (int z = -across; z <= across; ++z) {
+        const Strip strip{own[0] + y, own[1] + z};
+        const auto last = std::make_tuple(strip, centre.x() + radius_);
+        auto near = std::ranges::lower_bound(images_, std::make_tuple(strip, centre.x() - radius_),
+                                             {}, &Image<D>::key);
+        for (; near != images_.end() && near->key() <= last; ++near) {
+          const double squared = (near->centre - centre).squaredNorm();
+          if (squared < radius_ * radius_) book(near->grain, std::sqrt(squared));
+        }
+      }
   }
 
  private:
@@ -74,18 +83,6 @@ class NearGrains {
     if (periodic && place > length - radius_) all.push_back(-length);
     return all;
   }
-  template <class Book>
-  void visit_strip(const Strip& strip, const Vector<D>& centre, const Book& book) const
-  {
-    auto near = std::ranges::lower_bound(images_, std::make_tuple(strip, centre.x() - radius_), {},
-                                         &Image<D>::key);
-    const auto last = std::make_tuple(strip, centre.x() + radius_);
-    for (; near != images_.end() && near->key() <= last; ++near) {
-      const double squared = (near->centre - centre).squaredNorm();
-      if (squared < radius_ * radius_) book(near->grain, std::sqrt(squared));
-    }
-  }
-
   double radius_, width_;
   std::vector<Image<D>> images_;
 };

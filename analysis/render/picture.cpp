@@ -30,6 +30,25 @@ int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& fra
   return std::clamp(static_cast<int>(std::ceil(-std::log10(between) - 0.01)), 0, 6);
 }
 
+/// What is shown by default: along a period all of it; elsewhere as far as grains reach, with a
+/// margin of a third of the largest diameter.
+template <int D>
+Region whole_region(const Survey<D>& survey, const View& view)
+{
+  const double room = survey.largest_diameter / 3;
+  Region region{view.flat<D>(survey.low), view.flat<D>(survey.high)};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (view.period(axis) > 0) {
+      region.low[axis] = 0;
+      region.high[axis] = view.period(axis);
+    } else {
+      region.low[axis] -= room;
+      region.high[axis] += room;
+    }
+  }
+  return region;
+}
+
 }  // namespace
 
 template <int D>

@@ -67,23 +67,6 @@ Survey<D> survey_frames(const TrajectoryReader& run, const std::vector<std::size
   return survey;
 }
 
-template <int D>
-Region whole_region(const Survey<D>& survey, const View& view)
-{
-  const double margin = survey.largest_diameter / 3;
-  Region region{view.flat<D>(survey.low), view.flat<D>(survey.high)};
-  for (int axis = 0; axis < 2; ++axis) {
-    if (view.period(axis) > 0) {
-      region.low[axis] = 0;
-      region.high[axis] = view.period(axis);
-    } else {
-      region.low[axis] -= margin;
-      region.high[axis] += margin;
-    }
-  }
-  return region;
-}
-
 double strong_force(std::vector<double> forces)
 {
   return forces.empty() ? 0 : quantile(forces, 0.99);
@@ -102,13 +85,9 @@ Range range_of(FieldEnds ends, std::vector<double> values)
   return round_range({quantile(values, 0.01), high});
 }
 
-template struct Survey<2>;
-template struct Survey<3>;
 template Survey<2> survey_frames(const TrajectoryReader&, const std::vector<std::size_t>&,
                                  const Grains&, const std::optional<GrainField<2>>&);
 template Survey<3> survey_frames(const TrajectoryReader&, const std::vector<std::size_t>&,
                                  const Grains&, const std::optional<GrainField<3>>&);
-template Region whole_region(const Survey<2>&, const View&);
-template Region whole_region(const Survey<3>&, const View&);
 
 }  // namespace grseg

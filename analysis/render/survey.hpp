@@ -4,7 +4,7 @@
 #include "analysis/frames/contacts.hpp"
 #include "analysis/render/drawing.hpp"
 #include "analysis/render/grain_field.hpp"
-#include "analysis/render/view.hpp"
+#include "analysis/render/round_numbers.hpp"
 
 #include <optional>
 #include <vector>
@@ -31,11 +31,6 @@ struct Survey {
 template <int D>
 Survey<D> survey_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                         const Grains& grains, const std::optional<GrainField<D>>& field);
-
-/// What is shown by default: along a period all of it; elsewhere as far as grains reach, with a
-/// margin of a third of the largest diameter.
-template <int D>
-Region whole_region(const Survey<D>& survey, const View& view);
 
 /// The force (N) that 99 of 100 contacts do not exceed; 0 where there are none.
 double strong_force(std::vector<double> forces);
