@@ -177,7 +177,7 @@ std::string rule_table(const FitReport& report)
   for (const auto& row : number_rows(report)) {
     auto& cells = rows.emplace_back();
     for (const auto& [column, word] : words_in(report, row)) cells.push_back(word);
-    add_all(cells, format_numbers(values_of(numbers_in(row))));
+    add_all(cells, listed(values_of(numbers_in(row)), format_number));
     for (std::size_t k = 0; k < settings.size(); ++k)
       cells.push_back(row.of_flow ? report.flows[*row.of_flow].settings[k].second : "nan");
   }
