@@ -34,8 +34,8 @@ void add_run_options(po::options_description& options, RunOptions& run)
       po::value(&run.checkpoint_every)->default_value(60)->value_name("SECONDS"),
       "s of wall time between checkpoints");
   add("continue", po::bool_switch(&run.continues),
-      "continue from --checkpoint where that is there, else begin: one command for a run that may be "
-      "interrupted; with a longer --duration frames are added to the finished run");
+      "continue from --checkpoint if that file exists, else begin: one command for a run that may "
+      "be interrupted; with a longer --duration, frames are added to the finished run");
   add("restart", po::value(&run.restart)->value_name("FILE"),
       "continue from this checkpoint, bitwise as an uninterrupted run; SCENE.ini may be left out. "
       "A key that differs from the checkpoint's begins a new trajectory; keys of the bed cannot "
@@ -51,7 +51,7 @@ void check(const RunOptions& run, const po::variables_map& given)
   if (run.checkpoint_every < 0)
     throw UsageError("--checkpoint-every must be a time in seconds, 0 or more");
   if (run.estimate && !run.restart.empty())
-    throw UsageError("--estimate is of a whole run; leave out --restart");
+    throw UsageError("--estimate covers a whole run; leave out --restart");
   if (run.continues && (run.checkpoint.empty() || !run.restart.empty()))
     throw UsageError("--continue goes on from --checkpoint FILE, without --restart");
   if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
@@ -61,7 +61,7 @@ void check(const RunOptions& run, const po::variables_map& given)
                                  run.perturbation.size, largest_perturbation));
 }
 
-/// Whether `checkpoint` is the end of the run of `scene` that is in `output`.
+/// True where `checkpoint` is the end of the run of `scene` that is in `output`.
 bool is_finished(const Checkpoint& checkpoint, const Scene& scene, const std::string& output)
 {
   return checkpoint.state.steps_done >= scene.steps_in_all() && holds_something(output) &&

@@ -69,7 +69,8 @@ std::string short_text(const std::string& description)
   return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-/// What may follow an option: `from` lists it, and is empty for files.
+/// Statement of the script for the values of an option: `from` lists its words; empty where it
+/// takes files.
 std::string source_of(const po::option_description& option)
 {
   const auto words = words_for(option);

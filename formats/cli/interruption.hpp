@@ -17,10 +17,10 @@ struct Interruption : ToolError {
 /// stay so.
 void listen_to_signals();
 
-/// Whether one of them has arrived since.
+/// True once a signal has arrived.
 bool interrupted();
 
-/// What to throw then; the sentence says what is kept of the work.
+/// Exception to throw after a signal; the sentence says which part of the work is kept.
 Interruption interruption(const std::string& sentence);
 
 /// Throws it if interrupted; for places where stopping is safe and unfinished output is removed.

@@ -17,7 +17,7 @@ namespace grseg {
 /// Adds --overwrite, which has one meaning in all programs.
 void add_overwrite_to(po::options_description& options, bool& overwrite);
 
-/// What the command line says about where a table goes.
+/// Destination of a table or file, as the command line gives it.
 struct OutputOptions {
   std::string path;  ///< "" or "-": standard output
   bool overwrite = false;
@@ -30,7 +30,7 @@ struct OutputOptions {
   void check(const po::variables_map& values) const;
 };
 
-/// The same of a table, and how it is printed.
+/// Destination of a table, and the form in which it is printed.
 struct TableOptions : OutputOptions {
   bool short_form = false;
   int digits = 0;  ///< significant ones; 0: all in the whole table, few in the short one
@@ -39,8 +39,8 @@ struct TableOptions : OutputOptions {
   void add_to(po::options_description& options);
   /// Also refuses a number of digits that cannot be, and either option beside --json.
   void check(const po::variables_map& values) const;
-  /// Whether a table for reading goes to standard output: asked for, or that is a terminal and no
-  /// other place is named.
+  /// True where a table for reading goes to standard output: it was asked for, or standard output
+  /// is a terminal and no file is named.
   bool prints_short() const;
 };
 
@@ -66,8 +66,9 @@ class Output {
 /// directly. RunError on failure, and where a file has appeared that may not be replaced.
 void write_whole(const OutputOptions& output, std::string_view text);
 
-/// The same of a table, or prints a short one, which is `short_text` or made of it, or both. JSON, which
-/// begins with "{", has no short form.
+/// Writes the table `text` likewise. Where the short form is wanted it goes to standard output,
+/// beside a file that is named: `short_text`, or else `text` made short. JSON, which begins with
+/// "{", has no short form.
 void write_table(const TableOptions& output, const std::string& text,
                  const std::string& short_text = "");
 

@@ -49,15 +49,15 @@ void PartOptions::add_to(po::options_description& options)
       "part",
       po::value<std::string>()->value_name("K/N")->notifier(
           [this](const std::string& text) { part = parse_part(text); }),
-      "make the K-th of N parts of the output, of -o run.tsv run.part-K-of-N.tsv: each may be made "
-      "by a process of its own");
+      "make only the K-th of N parts of the output, run.part-K-of-N.tsv for -o run.tsv; each part "
+      "may be made by a process of its own");
   options.add_options()(
       "join", po::value<std::size_t>(&join)->value_name("N")->notifier([](std::size_t n) {
         if (n < 1 || n > most_parts)
           throw UsageError(fmt::format("--join {}: it must be 1 to {}", n, most_parts));
       }),
-      "make the output of its N parts, with all other options as they had: the "
-      "bytes that one process would write");
+      "join the N parts of the output, with all other options as for the parts; gives the bytes "
+      "that one process would write");
 }
 
 void PartOptions::check(const std::string& output) const

@@ -16,11 +16,11 @@ struct OutputPart {
 
   /// "3/16"
   std::string text() const;
-  /// Those of `things` that belong to it: from the first of the pair up to before the second. Parts
-  /// follow each other and differ by one thing at most.
+  /// Half-open range [first, second) of the things in this part. Parts follow each other, and their
+  /// sizes differ by at most one.
   std::pair<std::size_t, std::size_t> range(std::size_t things) const;
-  /// The file of the part of an output: "sums.part-03-of-16.tsv" of "sums.tsv". `extension`
-  /// replaces that of the output.
+  /// File of this part of an output: "sums.part-03-of-16.tsv" for "sums.tsv". `extension` replaces
+  /// the ending of `output`.
   std::string path(const std::string& output, const std::string& extension) const;
 };
 

@@ -7,8 +7,8 @@
 
 namespace grseg {
 
-/// What a program has to do: `total` things, of which it begins at `from`, such as 150 "s of flow"
-/// from t = 10 s on. A total of 0 is not known.
+/// The work of a program: `total` things, such as 150 "s of flow", counted from `from`, such as t =
+/// 10 s. A total of 0 means unknown.
 struct Work {
   std::string things;
   double total = 0;
@@ -25,9 +25,9 @@ std::string progress_text(double done, const Work& work, double seconds);
 /// reason to stop.
 void tell(std::string_view text);
 
-/// Tells on standard error how far a program is. On a terminal it is one line that is drawn anew; in
-/// a file a line now and then, since nobody watches it; in a pipe, or with `quiet`, nothing. The
-/// first line comes when the work turns out to take a while.
+/// Shows progress on standard error: on a terminal in one line that is redrawn, in a file in a line
+/// now and then, in a pipe or with `quiet` not at all. The first line appears when the work turns
+/// out to take a while.
 class ProgressBar {
  public:
   /// "grseg-render: 12 of 400 frames": `program` does `work`.
@@ -41,7 +41,8 @@ class ProgressBar {
   void begin(Work work);
   /// So much is done so far. Not by several threads at once.
   void show(double done);
-  /// What goes on without a number, at once and on a terminal only: "depositing the bed".
+  /// Prints a stage of the work that has no number, such as "depositing the bed", at once and on a
+  /// terminal only.
   void say(const std::string& text) const;
   /// Leaves an empty line on the terminal, where other words may follow.
   void clear() const;

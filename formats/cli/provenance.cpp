@@ -128,7 +128,7 @@ Header trust_of(const std::vector<Table>& tables)
 void TrustOption::add_to(po::options_description& options)
 {
   options.add_options()("trust", po::bool_switch(&trust),
-                        "do not compare what is read with its digests");
+                        "read without comparing content with its digests");
 }
 
 Header verification_lines(const TrajectoryReader& run)

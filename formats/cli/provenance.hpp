@@ -52,8 +52,9 @@ bool same_setting(const std::string& a, const std::string& b);
 /// As Table::read.
 std::vector<Table> read_tables(const po::variables_map& values);
 
-/// What a result must say of the tables that it is made of: the lines "verified", "incomplete",
-/// "undecided", "waived" and "doubt", each value once. "verified: all" only where nothing else is said.
+/// Header lines on trust that a result inherits from its tables: "verified", "incomplete",
+/// "undecided", "waived" and "doubt", each value once. "verified: all" remains only where every
+/// table has it.
 Header trust_of(const std::vector<Table>& tables);
 
 /// --trust of every tool that reads runs.

@@ -56,7 +56,7 @@ std::size_t shorten(std::vector<Line>& lines)
   return left_out;
 }
 
-/// What most readers look for in tables by layer, where they have more columns than fit.
+/// Columns of tables by layer that most readers look for; they are shown first where not all fit.
 constexpr std::string_view sought[] = {
     "t0",      "y0",          "phi_L",     "yL",     "height", "z_S",   "z_L",     "f_S",
     "f_L",     "sliding_all", "a_c_all",   "n_SS",   "n_LS",   "n_LL",  "A_SS_yy", "A_LL_yy",

@@ -17,11 +17,13 @@ inline constexpr std::size_t readable_width = 100;  // columns of letters
 std::string aligned(const std::vector<std::vector<std::string>>& lines,
                     const std::function<bool(std::size_t column)>& left);
 
-/// Without the lines "# key: value": the columns that fit, of many those that most readers look for, the first and last of many rows,
-/// numbers of `digits` significant digits; then a line that says what is left out.
+/// The table for a terminal, without its lines "# key: value": as many columns as fit, the most
+/// sought ones first; the first and last rows where there are many; numbers of `digits` significant
+/// digits. A last line says what is left out.
 std::string readable_table(std::string_view table, int digits);
 
-/// The same table with numbers of so many digits; words and whole numbers stay as they are.
+/// The whole table with numbers of `digits` significant digits; words and whole numbers stay as
+/// they are.
 std::string rounded_table(std::string_view table, int digits);
 
 }  // namespace grseg

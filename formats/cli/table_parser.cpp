@@ -47,7 +47,7 @@ class TableParser {
     if (!has_end_ && !table_.made_by_hand())
       fail(
           fmt::format("does not end with the line '{}N rows, xxh3 ...' of every table of {}; it is "
-                      "truncated or damaged, make it anew (a table made by hand has no line '# "
+                      "truncated or damaged, make it again (a table made by hand has no line '# "
                       "program: ...')",
                       end_mark, excerpt(table_.header_text("program"))));
     read_columns(head);
@@ -96,11 +96,11 @@ class TableParser {
     const std::string_view before(text_.data(), text_.size() - last.size() - 1);
     if (last == end_line(before, rows)) return;
     if (!last.starts_with(fmt::format("{}{} rows, ", end_mark, rows)))
-      fail(fmt::format("has {} rows, but ends with '{}'; it is damaged, make it anew", rows,
+      fail(fmt::format("has {} rows, but ends with '{}'; it is damaged, make it again", rows,
                        excerpt(last)));
     fail(
         "does not agree with the checksum in its last line: it was changed or damaged after it was "
-        "written; make it anew");
+        "written; make it again");
   }
 
   void read_header(std::size_t head)
@@ -162,7 +162,7 @@ class TableParser {
 
   const std::string& text_;
   Table table_;
-  std::vector<std::string_view> lines_;  // without those of the end
+  std::vector<std::string_view> lines_;  // the last may be the line that ends the table
   bool has_end_ = false;
 };
 

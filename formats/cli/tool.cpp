@@ -116,7 +116,8 @@ void print_help(const ToolInfo& info, const po::options_description& options)
          "128 + N ended by signal N (130 Ctrl-C, 143 SIGTERM).\n";
 }
 
-/// What it says may quote a file or its name, and no file may write to the terminal.
+/// Prints an error. Its sentence may quote a file or a file's name, so it is made printable: no
+/// file may send control characters to the terminal.
 void print_error(const ToolInfo& info, const std::exception& error)
 {
   std::cerr << info.name << ": " << printable_lines(error.what()) << '\n';

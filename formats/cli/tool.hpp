@@ -30,8 +30,8 @@ struct ToolInfo {
   std::span<const PresetOption> presets = {};  // none: the tool has no --preset
 };
 
-/// What all programs have in common: parse the command line (an unknown option is
-/// refused with the nearest known one), --help, --version and --preset, and turn what `body` throws
+/// The frame of every program: parses the command line (an unknown option is refused with the
+/// nearest known one), handles --help, --version and --preset, and turns an exception of `body`
 /// into one sentence on standard error and an exit code (errors.hpp). Arguments that are not
 /// options are passed on as "input". `body` gets the parsed options; values set by a preset count
 /// as defaults.
@@ -52,12 +52,12 @@ std::string single_input(const po::variables_map& values, const char* remedy);
 /// An option of a time in s; `place` stays empty where it is not given.
 po::typed_value<double>* time_option(std::optional<double>& place);
 
-/// Those that complete options.
+/// Names of the shells for which completion_script() works.
 std::vector<std::string> shells();
 
-/// What --completion SHELL prints: a script by which that shell completes the options of a tool, the
-/// files that options named FILE take, the words that others take (words.hpp), and its input
-/// files. UsageError for a shell that is not among `shells`.
+/// Output of --completion SHELL: a script by which that shell completes the tool's options, the
+/// files of options named FILE, the words of other options (words.hpp), and input files. UsageError
+/// for a shell that is not among `shells`.
 std::string completion_script(const std::string& shell, const std::string& tool,
                               const boost::program_options::options_description& options);
 

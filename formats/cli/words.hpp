@@ -63,7 +63,7 @@ std::string list_of(const Choice<Value> (&choices)[N])
   return list_of_words(words);
 }
 
-/// What `word` stands for, if anything.
+/// Value of `word`; none where it is not among the choices.
 template <class Value, std::size_t N>
 std::optional<Value> find_choice(const std::string& word, const Choice<Value> (&choices)[N])
 {
@@ -72,7 +72,7 @@ std::optional<Value> find_choice(const std::string& word, const Choice<Value> (&
   return std::nullopt;
 }
 
-/// What `word` stands for. UsageError (unknown_word) where it is not among the choices.
+/// Value of `word`. UsageError (unknown_word) where it is not among the choices.
 template <class Value, std::size_t N>
 Value choose(const std::string& word, const char* what, const Choice<Value> (&choices)[N])
 {
@@ -93,8 +93,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 /// control character or what is not UTF-8.
 std::string shell_word(std::string_view word);
 
-/// What the value of an option may be, for --completion. Words are written as messages list them: what
-/// follows a colon stands for something else, as in "uniform:P".
+/// Values of an option, for --completion. Words are written as messages list them: letters after a
+/// colon stand for something else, as in "uniform:P".
 struct OptionWords {
   std::vector<std::string> words;
 

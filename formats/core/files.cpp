@@ -45,7 +45,7 @@ int rename_unless_taken(const std::string& from, const std::string& to)
   return 0;
 }
 
-/// Whether the file `path` lies in `folder` or in a folder inside it.
+/// True where the file `path` lies in `folder` or in a folder inside it.
 bool lies_in(const std::string& path, const std::string& folder)
 {
   std::error_code error;

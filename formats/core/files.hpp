@@ -16,26 +16,26 @@ void require_file(const std::string& path);
 /// The sentence for an output that exists and may not be replaced.
 std::string already_exists(const std::string& path);
 
-/// Whether something has this name, be it a link that leads nowhere.
+/// True where something has this name, even a link that leads nowhere.
 bool is_taken(const std::string& path);
 
-/// Whether both names lead to one file or folder.
+/// True where both names lead to one file or folder.
 bool same_file(const std::string& a, const std::string& b);
 
-/// Whether `path` is a device or a pipe: it is written to, never replaced.
+/// True where `path` is a device or a pipe, which is written to, never replaced.
 bool is_device(const std::string& path);
 
 /// UsageError where `output` is one of `inputs` under any name (symbolic and hard links), or a
 /// folder in which one of them lies. Inputs that do not exist are passed over.
 void refuse_input_as_output(const std::string& output, const std::vector<std::string>& inputs);
 
-/// What must hold of the file that a program is going to make of `inputs`, before it begins to
-/// work: UsageError where `path` is one of them, also with `overwrite`; where it is a folder, a
-/// device or a pipe; and where it exists, unless `overwrite`. RunError where its folder is missing
-/// or does not allow it.
+/// Checks, before a program begins to work, that it may write `path`. UsageError where `path` is
+/// one of `inputs`, also with `overwrite`; where it is a folder, a device or a pipe; and where it
+/// exists, unless `overwrite`. RunError where its folder is missing or not writable.
 void check_output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
 
-/// What the system says about `error`, an errno, with a question that helps where it is obscure.
+/// The system's sentence for `error`, an errno, followed by a question that helps where it is
+/// obscure.
 std::string reason(int error);
 
 /// PATH.tmp.PROCESS: a name beside `path` that no other program uses.
@@ -45,20 +45,21 @@ std::string temporary_path(const std::string& path);
 /// failure.
 void write_file(const std::string& path, std::string_view content, const std::string& name);
 
-/// The same, behind what the file holds.
+/// Adds `content` to the end of the file `path`, otherwise as write_file().
 void append_to_file(const std::string& path, std::string_view content, const std::string& name);
 
 /// Waits until the file `path` is on disk. RunError on failure.
 void flush_to_disk(const std::string& path);
 
-/// The same for everything on the file system of `path`: one call for a folder of many files.
+/// Waits until everything on the file system of `path` is on disk: one call for a folder of many
+/// files. RunError on failure.
 void flush_file_system(const std::string& path);
 
 /// Renames `from` to `to`, replacing a file. RunError on failure.
 void rename_path(const std::string& from, const std::string& to);
 
-/// The same without replacing anything: RunError where `to` has appeared in the meantime; `remedy`
-/// ends the sentence.
+/// Renames `from` to `to` without replacing anything: RunError, which ends with `remedy`, where
+/// `to` has appeared in the meantime.
 void rename_to_new(const std::string& from, const std::string& to, const std::string& remedy);
 
 /// Gives the file `path` the name `second` too, replacing the file that had it. Where the file

@@ -20,7 +20,7 @@ template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;
 template <int D>
 using Tensor = Eigen::Matrix<double, D, D>;
-/// Of a turning grain: counter-clockwise in two dimensions, right-handed about each axis in three.
+/// Angular velocity: counter-clockwise in two dimensions, right-handed about each axis in three.
 template <int D>
 using Spin = std::conditional_t<D == 2, double, Vector<3>>;
 
@@ -33,7 +33,7 @@ using Tensor3 = Tensor<3>;
 /// that have names here. Boundary grains belong to none.
 enum class Species : std::int32_t { boundary = -1, small = 0, large = 1 };
 
-/// What never changes during a run; entry g describes grain g in every frame.
+/// Constants of the grains during a run; entry g describes grain g in every frame.
 struct Grains {
   std::vector<std::int32_t> id;
   std::vector<Species> species;
@@ -44,7 +44,7 @@ struct Grains {
   std::size_t size() const { return radius.size(); }
 };
 
-/// Whether a grain belongs to the flow. Boundary grains are in the file, but not in phi.
+/// True for a grain of the flow. Boundary grains are in the file, but not in phi.
 inline bool is_mobile(const Grains& grains, std::size_t grain)
 {
   return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
@@ -130,7 +130,7 @@ double step_of_force(const Frame<D>& frame, double step)
   return frame.part > 0 ? frame.part : step;
 }
 
-/// Whether grain g is there in this frame.
+/// True where grain g is present in this frame.
 template <int D>
 bool is_present(const Frame<D>& frame, std::size_t g)
 {
@@ -141,7 +141,7 @@ bool is_present(const Frame<D>& frame, std::size_t g)
 template <int D>
 std::size_t number_present(const Frame<D>& frame);
 
-/// Whether grain g belongs to the flow and is there in this frame.
+/// True where grain g belongs to the flow and is present in this frame.
 template <int D>
 bool is_mobile(const Grains& grains, const Frame<D>& frame, std::size_t g)
 {

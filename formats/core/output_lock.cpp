@@ -70,7 +70,7 @@ struct Owner {
   bool operator==(const Owner&) const = default;
 };
 
-/// Whether `path` is still the name of the open `file`: its owner may have removed it meanwhile.
+/// True while `path` is still the name of the open `file`; its owner may have removed it meanwhile.
 bool is_name_of(const std::string& path, int file)
 {
   struct stat of_file {

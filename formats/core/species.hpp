@@ -25,10 +25,10 @@ using SpeciesList = std::vector<SpeciesEntry>;
 inline constexpr std::size_t longest_species_name = 16;
 inline constexpr const char* name_of_boundary = "boundary";
 
-/// What most runs have: "small" and "large".
+/// The species of most runs: "small" and "large".
 SpeciesList two_sizes(double small_diameter, double large_diameter);
 
-/// Whether tables must name the species: they are other than small and large.
+/// True where tables must name the species because they are not just small and large.
 bool names_species(const SpeciesList& species);
 
 /// "small 0.005, large 0.01", and the list that such a text stands for; empty for any other text.
@@ -38,8 +38,8 @@ SpeciesList parse_species(const std::string& text);
 /// The names of species in columns: S and L where there are two, otherwise their own.
 std::vector<std::string> column_words(const SpeciesList& species);
 
-/// Whether a name can stand in files, command lines and names of columns: 1 to 15 of A-Z a-z 0-9 _ -
-/// ., and neither "boundary" nor "b", which stand for the base.
+/// True for a name that can stand in files, command lines and names of columns: 1 to 15 of A-Z a-z
+/// 0-9 _ - ., and neither "boundary" nor "b", which stand for the base.
 bool is_species_name(const std::string& name);
 inline constexpr const char* rule_of_species_names =
     "names have 1 to 15 of the characters A-Z a-z 0-9 _ - . and are neither boundary nor b";

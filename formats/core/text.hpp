@@ -13,13 +13,13 @@ namespace grseg {
 /// (also newline, tab and those from U+0080 on) and what is not UTF-8. It is then one line.
 std::string printable(std::string_view text);
 
-/// The same of each line of a text of several.
+/// Each line of the text made printable; line ends remain.
 std::string printable_lines(std::string_view text);
 
-/// The same of the beginning of a word, with "..." where it goes on; for messages that quote it.
+/// Beginning of a word, made printable, with "..." where it goes on; for messages that quote it.
 std::string excerpt(std::string_view text);
 
-/// What some programs put before text in UTF-8.
+/// Three bytes that some programs put before text in UTF-8.
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// The text as it stands in XML, between tags or quotes.

@@ -34,7 +34,7 @@ std::string bounds_of(const ViewCell& cell, int dimension)
   return text;
 }
 
-/// Types begin at 1; that of boundary grains is the last one.
+/// Type of a species: from 1 up for mobile species, and the last number for boundary grains.
 int type_of(Species species, std::size_t mobile)
 {
   return species == Species::boundary ? static_cast<int>(mobile) + 1

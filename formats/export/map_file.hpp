@@ -35,7 +35,8 @@ struct MapTable {
   std::vector<Window> windows;
   Field volume;  // of one window
   std::vector<Field> fields;
-  /// What stands in the header, each key once; lines of one key are joined by ends of line.
+  /// Lines of the table's header, each key once; several lines of one key are joined by ends of
+  /// line.
   std::vector<std::pair<std::string, std::string>> header;
 
   std::size_t cells() const { return axes[0].cells() * axes[1].cells(); }
@@ -47,13 +48,13 @@ std::vector<std::string> map_key_columns(const std::array<std::string, 2>& axes,
 /// FormatError where the table is not of a map.
 MapTable map_table(const Table& table);
 
-/// Whether a name asks for a map as other programs open it:
+/// True where a file name asks for a map in a format of other programs:
 ///   .h5   HDF5 for h5py, xarray and netCDF: a dataset [time][y][x] for each column, with its unit
 ///         in the attribute `units` and dimension scales time (middle of the window), y and x
 ///         (middles of the cells); t0, t1, frames [time], V [y][x], x_edges, y_edges; the lines of
 ///         the header as attributes of the file
-///   .vti  VTK image data for ParaView: an array of cells for each column; of one window
-///   .pvd  the same of all windows: a list of times and files, which lie in a folder beside it,
+///   .vti  VTK image data for ParaView: an array of cells for each column; one window
+///   .pvd  such files for all windows: a list of times and files, which lie in a folder beside it,
 ///         named like it without .pvd
 bool is_map_file(const std::string& path);
 

@@ -84,7 +84,8 @@ std::vector<double> of_windows(const MapTable& map, const Member& member)
   return numbers;
 }
 
-/// Of a column in a file, where / would begin a group: "sum_ft/fn_SS" is "sum_ft_per_fn_SS".
+/// Name of a column's dataset. Since / would begin a group, "sum_ft/fn_SS" becomes
+/// "sum_ft_per_fn_SS".
 std::string dataset_name(const std::string& column)
 {
   const auto slash = column.find('/');

@@ -23,7 +23,7 @@ constexpr std::streamsize buffer_size = 1 << 16;
 
 }  // namespace
 
-/// What is packed, and what of it is not yet written.
+/// The stream that compresses, and its compressed bytes that are not yet written.
 struct OutputFile::Packer {
   std::ostringstream packed;
   io::filtering_ostream bytes;  // last: its destructor writes to `packed`

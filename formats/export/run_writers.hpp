@@ -33,13 +33,13 @@ class RunWriter {
 /// A pair of dumps as LAMMPS writes them (doc/src/dump.rst), blocks with ITEM: TIME and the frame's
 /// step as TIMESTEP:
 ///   PATH            dump custom: id type mass radius x y z ix iy iz vx vy vz omegaz [fx fy fz],
-///                   wrapped positions and periods to add, types from 1, the smallest species, to
-///                   that of the boundary; of spheres also omegax and omegay
+///                   wrapped positions and periods to add; types from 1, the smallest species,
+///                   the last one the boundary; for spheres also omegax and omegay
 ///   PATH.contacts   (before the ending) dump local: index batom1 batom2 dist, the normal force
 ///                   fx fy fz and the tangential force p1 p2 p3 on batom1, in the order of
 ///                   property/local and pair/local (OVITO knows batom1, batom2, dist by name); then
-///                   forcex forcey, their sum to the last bit, branchx branchy (of spheres also forcez
-///                   and branchz), overlap = -gap, and wall
+///                   forcex forcey, their sum to the last bit, branchx branchy (for spheres also
+///                   forcez and branchz), overlap = -gap, and wall
 /// A contact with a straight wall names its grain twice, since OVITO stops at a partner that is not
 /// a grain, and has the number of the wall in `wall`, which is -1 otherwise. Reals have the fewest
 /// digits that read back exactly.
@@ -59,9 +59,9 @@ std::unique_ptr<RunWriter> extxyz_writer(const TrajectoryReader& run, const View
 /// particles have no `unit`, as the reader does not know metres and refuses unknown units (and all
 /// strings of fixed length, which H5MD demands); the file must be opened with convert_units=False,
 /// and numbers are SI as stated by /h5md/modules/units. position, velocity, force (where the run
-/// has it), image, angular_velocity (of discs about z, [F][N]), and per grain id, species, radius, mass;
+/// has it), image, angular_velocity (for discs about z, [F][N]); per grain id, species, radius, mass.
 /// Grains that are absent in a frame are NaN in it, as H5MD has a fixed number of particles.
-/// /observables are those of the run. Contacts cannot be stored.
+/// /observables are copied from the run. Contacts cannot be stored.
 std::unique_ptr<RunWriter> h5md3d_writer(const TrajectoryReader& run, const ViewCell& cell,
                                          const std::string& path, bool overwrite);
 

@@ -10,10 +10,10 @@
 
 namespace grseg {
 
-/// The cell for three-dimensional viewers, the same for all frames so that a film does not jitter:
-/// along x that of the run; along y, where nothing is periodic, from y = 0 or the lowest grain to
-/// the height of the box or the highest grain of one frame; along z that of the run or, of discs,
-/// one largest diameter about z = 0, where all centres are.
+/// The cell for three-dimensional viewers, equal in all frames so that a film does not jitter.
+/// Along x it is the cell of the run. Along y, where nothing is periodic, it extends from y = 0 or
+/// the lowest grain to the height of the box or the highest grain of one frame. Along z it is the
+/// cell of the run or, for discs, one largest diameter about z = 0, where all centres lie.
 struct ViewCell {
   std::array<double, 3> low, high;  // m
   bool periodic_x, periodic_z;

@@ -18,7 +18,7 @@ class VtkArrays {
   template <class Number>
   std::string add(const std::string& name, const Number* values, std::size_t count,
                   int components = 0);
-  /// What ends the file.
+  /// The bytes that end the file.
   std::string end() const;
 
  private:

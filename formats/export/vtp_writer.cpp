@@ -39,7 +39,7 @@ std::vector<float> padded(const std::vector<Vector<D>>& vectors)
   return single(all_in_space<D>(vectors));
 }
 
-/// Of the grains that are present, what all have.
+/// Entries of `all` (one per grain) for the grains that are present.
 template <int D, class T>
 std::vector<T> of_present(const Frame<D>& frame, std::vector<T> all)
 {

@@ -28,7 +28,8 @@ std::string examples()
                      notes);
 }
 
-/// What was typed, without the files that are named anew, and the answers that are proposed.
+/// The command line as typed, without the files that got new names, followed by the proposed
+/// answers.
 std::string proposed_command(int argc, char** argv, const ImportSettings& settings,
                              const OpenQuestions& open)
 {
@@ -72,7 +73,7 @@ int main(int argc, char** argv)
                  settings.quiet);
     } catch (const OpenQuestions& open) {
       throw UsageError(fmt::format(
-          "{}\nif what is proposed is right, and with the words in capitals filled in:\n  {}",
+          "{}\nCheck the proposed answers, and fill in the words in capitals:\n  {}",
           open.what(), proposed_command(argc, argv, settings, open)));
     }
   });

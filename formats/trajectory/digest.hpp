@@ -14,10 +14,10 @@
 /// damage; they are no proof against somebody who means to deceive.
 namespace grseg {
 
-/// Digest of a frame as it is stored, chained with that of the frame before (0 for the first). The
-/// bytes are, in this order: step, time, position, image, velocity, angular_velocity, force, then
-/// i, j, force, branch, gap of the contacts. With `float32` the floating-point arrays (not `time`)
-/// are rounded to 4 bytes first, as in the file.
+/// Digest of a frame as it is stored, chained with the digest of the frame before (0 if it is
+/// first). The bytes are, in this order: step, time, position, image, velocity, angular_velocity,
+/// force, then i, j, force, branch, gap of the contacts. With `float32` the floating-point arrays
+/// (not `time`) are rounded to 4 bytes first, as in the file.
 template <int D>
 std::uint64_t frame_digest(const Frame<D>& frame, std::uint64_t before, bool float32);
 
@@ -60,7 +60,7 @@ inline bool is_of_contacts(Field field)
 {
   return Field::contact_i <= field && field <= Field::contact_gap;
 }
-/// True of arrays of floating-point numbers or of vectors, false of those of whole numbers.
+/// True for arrays of floating-point numbers or vectors, false for whole numbers.
 inline bool holds_reals(Field field)
 {
   return field != Field::image && field != Field::contact_i && field != Field::contact_j;
@@ -79,9 +79,9 @@ struct FramePlace {
 /// has another digest. Not for `place` and `observables`.
 template <int D>
 std::uint64_t field_digest(Field field, std::uint64_t index, const Frame<D>& frame, bool float32);
-/// The same of Field::place.
+/// Digest of Field::place.
 std::uint64_t field_digest(std::uint64_t index, const FramePlace& place);
-/// The same of Field::observables: one value per observable, in the alphabetical order of names.
+/// Digest of Field::observables: one value per observable, in the alphabetical order of names.
 std::uint64_t field_digest(std::uint64_t index, const std::vector<double>& observables);
 
 /// Digest of any bytes, chained with the digest of the bytes before.

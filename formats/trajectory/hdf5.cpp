@@ -39,9 +39,9 @@ void check_written(herr_t status, const std::string& what)
 constexpr hsize_t most_packing = 1100;
 constexpr hsize_t small = 16 << 20;  // bytes
 
-// Of reading a structure whose checksum is wrong, while a writer may be about to complete it. HDF5
-// waits 1 ns after the first and twice as long after each: 17 ms in all. Its default, 100, waits for
-// ever where the structure is damaged.
+// Largest number of attempts to read a structure whose checksum is wrong, while a writer may be
+// about to complete it. HDF5 waits 1 ns after the first and twice as long after each: 17 ms in all.
+// Its default, 100, waits for ever where the structure is damaged.
 constexpr unsigned most_attempts = 24;
 
 /// Creates the groups that `path` lies in.
@@ -51,8 +51,8 @@ void make_parents(hid_t file, const std::string& path)
   if (slash != std::string::npos && slash > 0) make_group(file, path.substr(0, slash));
 }
 
-/// Whether the superblock (HDF5 File Format Specification, II.A) says that a writer holds the file
-/// open in SWMR mode, or was killed while it did.
+/// True where the superblock (HDF5 File Format Specification, II.A) says that a writer holds the
+/// file open in SWMR mode, or was killed while it did.
 bool has_swmr_writer(const std::string& path)
 {
   constexpr char signature[] = "\x89HDF\r\n\x1a\n";

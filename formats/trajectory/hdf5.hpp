@@ -64,7 +64,7 @@ Properties newest_format();
 /// Settings for a new file whose root has no time of day: the same content gives the same bytes.
 Properties without_time();
 
-/// Whether a file begins as those of HDF5 do.
+/// True where the file begins with HDF5's signature.
 bool is_hdf5(const std::string& path);
 
 /// Opens a file that anybody may have made, for reading: UsageError where it is missing or not a
@@ -74,7 +74,7 @@ File open_for_reading(const std::string& path, Properties access = Properties())
 
 /// Text of fixed length, UTF-8.
 Type string_type(std::size_t length);
-/// Of a dataset or attribute of this shape; an empty one is a scalar.
+/// Dataspace of a dataset or attribute of this shape; an empty shape makes a scalar.
 Space space_of(const std::vector<hsize_t>& shape);
 
 /// How a growing dataset is stored.
@@ -136,14 +136,14 @@ class CheckedDataset {
   std::string path_, file_;
 };
 
-/// Whether numbers of this type are those of any processor: integers of 1 to 8 bytes, IEEE single or
-/// double precision. A damaged description of a type makes other numbers of the same bytes.
+/// True where the type is a number that processors have: an integer of 1 to 8 bytes, or IEEE single
+/// or double precision. A damaged description of a type makes other numbers of the same bytes.
 bool is_usual_number(hid_t type);
 
-/// Of the file that an object lies in, bytes.
+/// Size of the file in which an object lies, bytes.
 hsize_t size_of_file(hid_t object);
 
-/// Whether `path` leads from `parent` to something.
+/// True where `path` leads from `parent` to something.
 bool exists(hid_t parent, const std::string& path);
 /// The names linked in a group, in alphabetical order.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);

@@ -18,7 +18,7 @@ namespace grseg {
 /// Numbers of a dataset; `real` is float64, or float32 where the run is stored so.
 enum class Number { i32, i64, u8, u64, f64, real };
 
-/// Their type in a file; that of a file in double precision is also their type in memory.
+/// HDF5 type of these numbers in a file. The type in double precision is also the one in memory.
 hid_t type_of(Number number, bool float32 = false);
 
 /// A letter of `shape` is F frames, O = F+1, N grains, C contacts, K species and the boundary, D digests
@@ -62,7 +62,7 @@ constexpr std::array layout{
     LayoutRow{"/grseg/seal", Number::u64, "4"},
 };
 
-/// What letters of a shape stand for in one run.
+/// Sizes that the letters of a shape stand for in one run.
 struct LayoutSizes {
   std::size_t frames, contacts, grains, species;  // mobile species
   int dimension;
@@ -73,18 +73,18 @@ std::vector<hsize_t> shape_of(std::string_view letters, const LayoutSizes& sizes
 const LayoutRow& row_at(std::string_view path);
 const LayoutRow& row_of(Field field);
 
-// What is in a file once, and how it is created and read.
+// Content that a file holds once: how it is created and read.
 
 /// Creates the trajectory file `path` (formats/README.md) with everything that a run holds once, no
 /// frame, and a seal of zeros. RunError where it cannot be written.
 void create_trajectory(const std::string& path, const RunDescription& run,
                        const StorageSettings& storage);
 
-/// For files that are written `live`. A kill can cut a write at the end of a page of memory (4096
-/// bytes). A header or a part of a chunk index that crosses one would then be half old and half new,
-/// which HDF5 takes for damage, and all chunks that it lists would be lost, those of old frames too.
-/// So all that is added to a file opened with this `access` begins with a page. After 8,180 chunks,
-/// that is, frames, the parts of an index are longer than a page.
+/// Settings for files that are written `live`: everything added to a file opened with `access`
+/// begins at a page of memory (4096 bytes). A kill can cut a write at the end of a page. A header
+/// or a part of a chunk index that crosses one would then be half old and half new; HDF5 takes this
+/// for damage, and all chunks in it would be lost, even old frames. After 8,180 chunks, that is,
+/// frames, the parts of an index are longer than a page.
 void keep_in_pages(hid_t access);
 
 /// Writes one of /parameters into `file`, or replaces it. In a `live` file it must be there already,

@@ -23,7 +23,7 @@ std::string name_of(Number number, bool float32)
   return names_of_numbers[static_cast<std::size_t>(number)];
 }
 
-/// Whether the types are the same, but for the order of bytes.
+/// True where both types are equal except for the order of bytes.
 bool is_like(hid_t type, hid_t wanted)
 {
   return H5Tget_class(type) == H5Tget_class(wanted) && H5Tget_size(type) == H5Tget_size(wanted) &&

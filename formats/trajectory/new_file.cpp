@@ -124,7 +124,8 @@ class NewFile {
     write_numbers("/grseg/species/mobile", mobile);
   }
 
-  /// What grows below `group`, or has this path. Elements of H5MD have `value`, `step` and `time`.
+  /// Creates the growing datasets below `group`, or the one that has this path. Elements of H5MD
+  /// have `value`, `step` and `time`.
   void create_series(std::string_view group) const
   {
     for (const auto& row : layout) {
@@ -165,7 +166,7 @@ class NewFile {
   File file_;
 };
 
-/// Makes room for a parameter that is written anew.
+/// Removes the parameter `name`, if it exists, so that it can be written again; returns its path.
 std::string cleared(hid_t file, const std::string& name)
 {
   std::string at = "/parameters/" + name;

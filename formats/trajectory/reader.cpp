@@ -27,7 +27,7 @@ struct TrajectoryReader::Datasets {
     return {file, at, kind, rank, run.path};
   }
   const RowReader& rows_of(Field field) const { return rows[static_cast<std::size_t>(field)]; }
-  /// What is stored of a frame, or of its contacts, in a field. What is compressed is appended to
+  /// Reads a field of a frame, or of its contacts, as stored. Compressed rows are appended to
   /// `packed`.
   template <class T>
   void load(Field field, std::size_t frame, std::vector<T>& out,
@@ -191,7 +191,7 @@ std::string changed(Field field, std::size_t index)
       name_in_messages(field), index);
 }
 
-/// Whether these fields hold an array.
+/// True where these fields hold an array.
 bool include(TrajectoryReader::Fields fields, Field array)
 {
   if (is_of_contacts(array)) return fields.contacts;
@@ -204,7 +204,7 @@ bool matches(const StoredRun& run, std::size_t index, Field field, std::uint64_t
   return run.field_digests[index][static_cast<std::size_t>(field)] == digest;
 }
 
-/// What is damaged outside frames, or where they stand.
+/// Damage outside frames or to their places, in one sentence; "" if there is none.
 std::string damage_of(const StoredRun& run)
 {
   constexpr const char* remedy = "the file is damaged; take a copy that is whole";

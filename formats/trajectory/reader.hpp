@@ -12,24 +12,25 @@
 
 namespace grseg {
 
-/// Whether what is read is compared with its digests.
+/// Comparison of content with its digests while it is read.
 enum class Verify { yes, no };
 
-/// Reads a trajectory file (formats/README.md). Every size, type and filter is checked before
-/// anything is read, frame contents (indices in range, all numbers of grains that are present finite) while it is read, and
-/// everything that is read is compared with the digests that its writer has left. Throws UsageError
-/// where the file is missing, FormatError naming file, path in the file and frame where its content
-/// is wrong. Only committed frames are visible; the file may be that of a run that goes on.
+/// Reads a trajectory file (formats/README.md). Sizes, types and filters are checked before
+/// anything is read. Frames are checked while they are read: indices are in range, and all numbers
+/// of present grains are finite. Everything read is compared with the digests that the writer left.
+/// Throws UsageError where the file is missing, and FormatError naming file, path in the file and
+/// frame where its content is wrong. Only committed frames are visible; the run may still be going
+/// on.
 class TrajectoryReader {
  public:
-  /// What `read` reads; the rest stays empty.
+  /// Arrays that `read` fills; the others stay empty.
   struct Fields {
     bool velocity = true;  // velocity, angular_velocity
     bool contacts = true;
     bool force = false;  // force and image
   };
 
-  /// What `load` leaves of a frame that is stored compressed: it goes to the arrays of that frame.
+  /// Compressed rows that `load` leaves to be unpacked into the arrays of its frame.
   struct Packed {
     std::size_t index = 0;
     Fields fields;
@@ -52,12 +53,12 @@ class TrajectoryReader {
   const Parameters& parameters() const { return run_->description.parameters; }
   /// False for some imports; `force` of their frames is empty.
   bool has_force() const { return run_->description.has_force; }
-  /// Whether a grain may be absent in a frame: is_present() of core/frame.hpp.
+  /// True where a grain may be absent in a frame (is_present() of core/frame.hpp).
   bool grains_come_and_go() const { return run_->description.grains_come_and_go; }
-  /// Whether its writer came to the end and closed it.
+  /// True where the writer came to the end and closed the file.
   bool closed() const { return run_->closed(); }
 
-  /// What has been verified: "all" or "no (--trust)".
+  /// Extent of verification, for tables: "all" or "no (--trust)".
   std::string verified() const { return verify_ == Verify::yes ? "all" : "no (--trust)"; }
 
   /// Steps and times (s) of the committed frames.
@@ -99,12 +100,12 @@ class TrajectoryReader {
   std::uint64_t digest() const { return size() == 0 ? 0 : digests().back(); }
   /// The chain itself, one entry per committed frame (formats/trajectory/digest.hpp).
   const std::vector<std::uint64_t>& digests() const { return run_->chain; }
-  /// Whether the numbers of grains and contacts are stored in single precision.
+  /// True where the numbers of grains and contacts are stored in single precision.
   bool stores_float32() const;
 
-  /// What is damaged outside frames, one sentence, or "": for a reader that does not verify.
+  /// Damage outside frames in one sentence, or "", for a reader that does not verify.
   std::string damage_outside_frames() const;
-  /// Whether `frame`, read whole, is as it was written.
+  /// True where `frame`, read whole, agrees with its digest.
   template <int D>
   bool is_intact(std::size_t index, const Frame<D>& frame) const;
 

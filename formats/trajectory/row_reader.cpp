@@ -20,8 +20,7 @@ constexpr std::size_t most_kept = 2 << 20;
 // Deflate packs at most 1032 : 1.
 constexpr hsize_t most_deflated = 1040;
 
-/// Whether the filters are deflate, or shuffle and deflate; of shuffle, that it shuffles the bytes of
-/// one number.
+/// True where the filters are deflate, or shuffle (of single numbers) and then deflate.
 bool has_known_filters(hid_t create, std::size_t number_bytes)
 {
   const int filters = H5Pget_nfilters(create);

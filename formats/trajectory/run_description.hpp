@@ -13,7 +13,7 @@
 
 namespace grseg {
 
-/// What a trajectory file holds once.
+/// Content that a trajectory file holds once.
 struct RunDescription {
   Grains grains;
   Box box;
@@ -33,11 +33,11 @@ inline SpeciesList species_of(const RunDescription& run)
                    run.parameters.find_number("large_diameter").value_or(0));
 }
 
-/// Whether a parameter is known only when a run has ended: `complete` and summary_*. The seal
-/// vouches for these, the static digest for all others.
+/// True for a parameter that is known only when a run has ended: `complete` and summary_*. The seal
+/// covers these, the static digest all others.
 bool is_known_at_end(const std::string& parameter);
 
-/// Of box, grains, species, names and units of observables, and parameters.
+/// Digest of box, grains, species, names and units of observables, and parameters.
 std::uint64_t static_digest(const RunDescription& run);
 
 /// Written when the file is closed: it vouches for the number of frames and for what is known only
@@ -54,7 +54,7 @@ struct Seal {
 Seal make_seal(std::uint64_t frames, std::uint64_t contacts, std::uint64_t chain,
                std::uint64_t static_digest, const Parameters& parameters);
 
-/// What a trajectory file holds beside the contents of its frames.
+/// Content of a trajectory file apart from the data of its frames.
 struct StoredRun {
   std::string path;
   RunDescription description;

@@ -47,8 +47,8 @@ class TrajectoryWriter {
   std::size_t frames() const;    ///< appended so far
   std::uint64_t digest() const;  ///< xxh3 chain up to the last of them, as in TrajectoryReader
 
-  /// Adds to /parameters, or sets anew, what is known only at the end, such as the summary of the
-  /// run.
+  /// Adds or replaces entries of /parameters that are known only at the end, such as the summary of
+  /// the run.
   void add_parameters(const Parameters& parameters);
 
   /// Seals, flushes and closes the file; throws the errors that a destructor would have to ignore.

@@ -23,7 +23,7 @@ struct Bodies {
   hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
 };
 
-/// The velocity of bodies i less that of bodies j, and the sum of their inverse masses.
+/// Velocity of bodies i relative to bodies j, and the sum of their inverse masses.
 struct Relative {
   Vector vx, vy, inverse_mass;
 };

@@ -44,8 +44,9 @@ template <class Real>
 struct RunsOf {
   std::span<BlockOf<Real>> blocks;
   std::span<const std::uint32_t> ends;  // of the runs, in blocks
-  /// Where several strips make up a scene: the bodies of this one. The ranges of all strips together
-  /// hold every body that contacts can move; contacts touch those of their own strip and its neighbours.
+  /// Bodies of this strip, where several strips make up a scene. The ranges of all strips together
+  /// hold every body that contacts can move; contacts touch only bodies of their own strip and its
+  /// neighbours.
   Range bodies{};
 };
 using BlockRuns = RunsOf<double>;

@@ -18,7 +18,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Whether two discs act whose centres are (dx, dy) apart after the forecast, m; reach = r_i + r_j.
+/// True where two discs act whose centres are (dx, dy) apart after the forecast, m; reach = r_i +
+/// r_j.
 template <class V>
 HWY_INLINE auto acts(V dx, V dy, V reach, V margin)
 {
@@ -26,7 +27,7 @@ HWY_INLINE auto acts(V dx, V dy, V reach, V margin)
   return dx * dx + dy * dy <= limit * limit;
 }
 
-/// Whether a disc acts whose centre is then at `distance` from a wall, m; `reach` is its radius.
+/// True where a disc acts whose centre is then at `distance` from a wall, m; `reach` is its radius.
 template <class V>
 HWY_INLINE auto acts_on_wall(V distance, V reach, V margin)
 {
@@ -39,7 +40,8 @@ struct Normal {
   V nx, ny, distance;
 };
 
-/// Of two discs whose centres are (dx, dy) apart at mid-step, m; anything finite where `used` is false.
+/// Normal of two discs whose centres are (dx, dy) apart at mid-step, m; anything finite where
+/// `used` is false.
 template <class V>
 HWY_INLINE Normal<V> normal_of_discs(V dx, V dy, MaskOf<V> used)
 {
@@ -48,7 +50,7 @@ HWY_INLINE Normal<V> normal_of_discs(V dx, V dy, MaskOf<V> used)
   return {dx * inverse, dy * inverse, distance};
 }
 
-/// Of a disc whose centre lies (dx, dy) from a point of a wall with normal (nx, ny).
+/// Normal of a disc whose centre lies (dx, dy) from a point of a wall with normal (nx, ny).
 template <class V>
 HWY_INLINE Normal<V> normal_of_wall(V dx, V dy, V nx, V ny)
 {
@@ -78,7 +80,7 @@ HWY_INLINE V fresh_approach(V separation, V load)
   return choose(magnitude(separation) > error * load, minus(separation));
 }
 
-/// What a pair that acts must reach, and what it has to remember.
+/// Separation velocity that an acting pair must reach, and the approach it has to remember.
 template <class V>
 struct Rebound {
   V velocity;    // m/s, least separation velocity after the step
@@ -115,8 +117,9 @@ HWY_INLINE V w_ratio(V kappa)
   return number<V>(1) + number<V>(disc_rim_factor) * kappa * kappa;
 }
 
-/// What impulses along the normal and the tangent do: (px, py) times its inverse mass is added to the
-/// velocity of i and taken from that of j; `spin`, likewise, is taken from both rim speeds.
+/// Effect of impulses along the normal and the tangent: (px, py) times its inverse mass is added to
+/// the velocity of i and taken from the velocity of j; `spin`, likewise, is taken from both rim
+/// speeds.
 template <class V>
 struct Push {
   V px, py, spin;
@@ -146,7 +149,7 @@ HWY_INLINE void push(Body& a, Body& b, V weight_a, V weight_b, const Push<V>& p)
   b.vy = b.vy - weight_b * p.py;
 }
 
-/// Velocity of the surface of i along that of j, m/s: what friction acts against.
+/// Velocity of the surface of i along the surface of j, m/s, which friction opposes.
 template <Effects with, class Contacts, class Body, class V>
 HWY_INLINE V sliding_of(const Contacts& c, const Body& a, const Body& b, V dvx, V dvy)
 {
@@ -161,8 +164,8 @@ struct Limits {
   V least, most;
 };
 
-// What the law amounts to in whole impulses, and below in increments, whose sums are in the order that
-// makes the chain of operations on velocities shortest.
+// The law in whole impulses, and below in increments. Sums are in the order that makes the chain of
+// operations on velocities shortest.
 
 /// The impulse along n that would make the separation velocity the rebound.
 template <Effects with, class V>

@@ -6,11 +6,11 @@
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
 /// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
-/// Methods Appl. Mech. Eng. 177, 235, 1999). This file has them in words, and the numbers that they
-/// are about; contact_law-inl.hpp has the equations, for one pair or as many as a vector has lanes.
+/// Methods Appl. Mech. Eng. 177, 235, 1999). This file has them in words, with their
+/// variables; contact_law-inl.hpp has the equations, for one pair or as many as a vector has lanes.
 ///
 /// A step of length h leads from positions x and velocities v to v+ and x+ = x + h (v + v+)/2.
-/// Contacts are those of the middle of the step, x_m = x + h v/2. For a pair i, j:
+/// Contacts are found in the middle of the step, x_m = x + h v/2. For a pair i, j:
 ///
 ///   n, t      unit vector from j to i at mid-step (of a wall: its normal), and t = (-n_y, n_x)
 ///   gap       |x_m,i - x_m,j| - (r_i + r_j), m; below 0 the discs overlap
@@ -23,7 +23,7 @@
 ///   Signorini and Newton  p_n >= 0,  u+ >= rebound,  p_n (u+ - rebound) = 0
 ///   Coulomb               |p_t| <= mu p_n; equal where the surfaces slide after the step
 ///
-/// The laws differ in which pairs act, and in the rebound of those that are still apart:
+/// The laws differ in which pairs act, and in the rebound of pairs that are still apart:
 ///
 ///   acts      if the gap is at most `margin` after `forecast` more steps of free flight:
 ///             |x_m,i - x_m,j + forecast h (v_i - v_j)| <= r_i + r_j + margin
@@ -46,7 +46,8 @@
 /// docs/studies/accuracy.md compares the laws in flows and impacts.
 namespace grseg {
 
-/// When a pair acts. Delays are those of an isolated impact, averaged over its phase in the step.
+/// Conditions under which a pair acts. Delays are means over the phase of an isolated impact in the
+/// step.
 enum class ContactLaw {
   /// A pair that would close its gap within `horizon` steps (0.75 by default) is slowed down, and
   /// rebounds in the next step. Overlap in flows is a quarter of the others' at the same step.
@@ -59,11 +60,11 @@ enum class ContactLaw {
   predictive
 };
 
-/// The numbers a law amounts to; see above. Without a choice, those of ContactLaw::touch.
+/// Numbers of a law, as defined above. The defaults are ContactLaw::touch.
 struct LawParameters {
   double forecast = 0;  // steps, from mid-step on
   double margin = 0;    // m, at least least_margin times the smallest diameter
-  double horizon = 0;   // steps; 0: pairs that are apart rebound like those that touch
+  double horizon = 0;   // steps; 0: pairs that are apart rebound like touching ones
 };
 
 /// A contact at rest must not be lost, and its load with it, because the last digit of a position
@@ -99,7 +100,7 @@ inline LawParameters law_parameters(ContactLaw law, double horizon, double step,
   return {};
 }
 
-/// What a contact needs to know of a grain. With the rim speed r*omega in place of the angular
+/// Motion of a grain, as its contacts need it. With the rim speed r*omega in place of the angular
 /// velocity the moment of inertia of a disc, m r^2/2, leaves the equations. Aligned, so that one
 /// load fetches it.
 template <class Real>
@@ -116,12 +117,12 @@ struct alignas(4 * sizeof(float)) MotionOf<float> {
 using Motion = MotionOf<double>;
 
 /// A pair that acts, seen from the middle of the step. The normal n points from j to i, the
-/// tangent is t = (-ny, nx). Impulses are those ON i, in kg m/s, over the whole step.
+/// tangent is t = (-ny, nx). Impulses act ON i and are in kg m/s, over the whole step.
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up
 /// to the distance of the centres and angular momentum is conserved whatever the gap.
 ///
-/// Number is a double, or holds those of several pairs: an array, or a vector.
+/// Number is a double, or an array or a vector of the numbers of several pairs.
 template <class Number>
 struct WholeImpulses {
   Number nx, ny;
@@ -150,7 +151,7 @@ struct Contact : WholeImpulses<double> {
   std::int32_t i, j;  // entries of the Motion array
 };
 
-/// What the contacts of a scene do. An effect left out gives the same bits as its neutral
+/// Effects at the contacts of a scene. An effect left out gives the same bits as its neutral
 /// coefficient: friction 0, restitution 0, and for rotation rim speeds that stay 0.
 struct Effects {
   bool friction = true;
@@ -176,8 +177,8 @@ struct Material {
   double restitution = 0.25;  // Newton's e: separation over approach velocity
 };
 
-/// What relaxing changed along the normal and the tangent, and the impulses that it led to, as the
-/// relative velocities they stand for (m/s): W times the impulse.
+/// Changes made by relaxing a contact, along the normal and the tangent, and the impulses after it;
+/// both as the relative velocities they stand for (m/s): W times the impulse.
 template <class Number>
 struct Relaxed {
   Number change_n, level_n, change_t, level_t;

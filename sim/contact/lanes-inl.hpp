@@ -168,8 +168,8 @@ HWY_INLINE void store_set_bits(std::uint32_t byte, std::size_t first, std::uint3
   }
 }
 
-/// Writes those of eight numbers whose bits are set, and then anything, to the eight entries at
-/// `to`.
+/// Writes the numbers, out of eight, whose bits are set to the entries at `to`; the rest of the
+/// eight entries there is undefined.
 HWY_INLINE void store_chosen(std::uint32_t byte, const std::uint32_t* from, std::uint32_t* to)
 {
   const D32 d;

@@ -35,8 +35,8 @@ void for_ranges(int threads, std::size_t count, const Range& do_range)
   });
 }
 
-/// do_strip(s) for all strips: those of even number at the same time, then the others, so that no
-/// two neighbouring strips are worked on at once.
+/// do_strip(s) for all strips: first the even ones, several at a time, then the odd ones, so that
+/// no two neighbouring strips are worked on at once.
 template <class Strip>
 void for_alternate_strips(int threads, std::size_t count, const Strip& do_strip)
 {

@@ -11,12 +11,12 @@
 
 namespace grseg {
 
-/// Whether a list of pairs still holds every pair that may touch.
+/// Tells how long a list of pairs still holds every pair that may touch.
 ///
 /// A list that was made with all pairs nearer than `skin` holds all nearer than `margin` as long as
 /// no two grains that could meet have moved by more than skin - margin relative to each other.
 /// Grains are grouped by where they were when the list was made, in pieces of bands of height
-/// d_max + skin across y. Only those of neighbouring groups can meet, so relative displacement is
+/// d_max + skin across y. Only grains of neighbouring groups can meet, so relative displacement is
 /// bounded group by group: a layer that slides as a block, however fast, needs no new list.
 class Completeness {
  public:
@@ -26,20 +26,20 @@ class Completeness {
 
   /// For a list that was just made, of bodies at `made_at`, m, sorted by `grid`.
   void begin(const CellGrid& grid, const GrainState& grains, const std::vector<Vec2>& made_at);
-  /// Whether that list is still complete with bodies at `position`, m, not wrapped since, and no two
+  /// True while that list is complete with bodies at `position` (m, not wrapped since), and no two
   /// that may meet have moved by more than `farthest`, m, relative to each other.
   bool holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position, double farthest);
-  /// Where it was last found not to be so, m/s: no two grains that may have met since then without
-  /// being listed, or have moved by more, had a larger relative velocity, if bodies moved with
-  /// `motion`. Otherwise 0.
+  /// Upper bound of the relative velocity, m/s, of grains that may have met since the list was made
+  /// without being listed, or have moved by more than allowed, if bodies moved with `motion`. 0
+  /// where the last holds() was true.
   double fastest_unlisted(const std::vector<Motion>& motion) const;
 
  private:
   void make_groups(const CellGrid& grid);
   void find_unlisted(std::size_t group, const GrainState& grains, const std::vector<Vec2>& made_at);
   void measure_neighbours(std::size_t band);
-  /// Of a group and the neighbours to its right and above it: any two neighbouring groups lie in
-  /// such a square.
+  /// Extent of a group and its neighbours to the right and above: any two neighbouring groups lie
+  /// in such a square.
   Extent square_at(const std::vector<Extent>& groups, std::size_t band, std::size_t g) const;
   bool bands_stay_apart() const;
   bool walls_stay_away() const;

@@ -22,7 +22,7 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// What a scene has; what it does not have costs nothing.
+/// Effects of a scene; one that it does not have costs nothing.
 struct Variant {
   bool periodic, rotation, restitution, horizon;
 };
@@ -34,7 +34,7 @@ struct alignas(64) LaneSums {
   bool coincident = false;
 };
 
-/// What is kept per pair, as one array of doubles: two per pair, of memories four.
+/// Data of a pair as one array of doubles: two for its geometry, four for its memory.
 HWY_INLINE const double* numbers_of(const Pairs::Geometry* g)
 {
   return &g->shift;
@@ -134,7 +134,7 @@ struct Geometries {
   Vector nx, ny, kappa, gap;
 };
 
-/// Of the pairs of a class from `at` of `near` on.
+/// Geometries of the pairs of a class, from entry `at` of `near` on.
 template <bool periodic>
 HWY_INLINE Geometries geometry_of(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
                                   std::size_t at, const DetectionRule& rule, hn::Mask<D> used,

@@ -51,7 +51,7 @@ struct DetectionRule {
   double restitution = 0;
   double horizon = 0;  // s, LawParameters::horizon times the step
   double rim_factor = disc_rim_factor;
-  /// What is computed. Effects left out equal their neutral coefficients to the last bit:
+  /// Effects to compute. An effect left out equals its neutral coefficient to the last bit:
   /// restitution 0, rim_factor 0, shifts 0.
   Effects effects;
   bool periodic = true;
@@ -73,7 +73,7 @@ struct DetectionSums {
 DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
                             std::vector<StripContacts>& contacts, int threads = 1);
 
-/// Takes the last find_contacts back: the pairs that act are those of the step before again.
+/// Undoes the last find_contacts: the same pairs act as in the step before.
 void forget_search(std::vector<StripContacts>& contacts);
 
 /// Sums over the contacts that were solved.

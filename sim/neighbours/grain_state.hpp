@@ -14,9 +14,9 @@ namespace grseg {
 /// Lengths of a periodic cell that a grain may travel; files count them in 32 bits.
 constexpr std::int32_t most_periods = 1'000'000'000;
 
-/// What changes of the grains, sorted along the cells of the pair list, so that what is near in
-/// space is near in memory. The entry after the last grain is a body that never moves; it stands
-/// for all walls, and for both partners in lanes of a block that are not used.
+/// Variables of the grains, sorted along the cells of the pair list, so that neighbours in space
+/// are near in memory. The entry after the last grain is a body that never moves; it stands for all
+/// walls, and for both partners in unused lanes of a block.
 struct GrainState {
   std::vector<Vec2> position;       // m; one more than there are grains
   std::vector<Motion> motion;       // one more than there are grains

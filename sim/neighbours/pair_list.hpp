@@ -42,7 +42,7 @@ class PairColours {
     std::uint64_t among_grains = 0, on_base = 0;  // a bit per colour
   };
 
-  /// Of the pair a, b; marks its colour as taken.
+  /// Class of the pair a, b; marks its colour as taken.
   std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState& grains);
   void colour_strip(std::size_t strip, const FoundPairs& found, const CellGrid& grid,
                     const GrainState& grains);
@@ -60,8 +60,8 @@ class PairList {
   PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius, double skin,
            double margin = 0, int threads = 1);
 
-  /// Whether the list still holds every pair that may touch at `position` (m, in the order of
-  /// GrainState; not wrapped since the list was made, as a pair's shift is that of then).
+  /// True while the list holds every pair that may touch at `position` (m, in the order of
+  /// GrainState; not wrapped since the list was made, which set the pairs' shifts).
   bool complete(const std::vector<Vec2>& position)
   {
     return complete(position, std::numeric_limits<double>::infinity());
@@ -84,7 +84,7 @@ class PairList {
     return completeness_.fastest_unlisted(motion);
   }
 
-  /// What it takes to make the same list again.
+  /// Data from which the same list can be made again.
   struct State {
     std::vector<Vec2> made_at;        // m, as in GrainState; empty before the first renewal
     std::vector<std::uint32_t> i, j;  // as in Pairs, and with the same neutral pair

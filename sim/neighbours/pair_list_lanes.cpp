@@ -67,8 +67,8 @@ void measure(const double* from, const double* to, std::span<const Range> groups
   leave_vectors();
 }
 
-/// Looks for pairs of body `a` with those of a range, to whose x `offset` is added; appends them to
-/// the `count` found so far.
+/// Looks for pairs of body `a` with the bodies of a range, to whose x `offset` is added; appends
+/// their partners to the `count` found so far.
 template <bool periodic>
 HWY_INLINE void find_with(const Discs& discs, std::size_t a, Range range, double skin,
                           double offset, double length, std::uint32_t* found, std::size_t& count)

@@ -35,7 +35,7 @@ struct Search {
   double length = 0;               // m, period of x if either image may be the nearest, else 0
 };
 
-/// Pairs in the order of their first body a: those of a are begin[a] .. begin[a+1]-1.
+/// Pairs in the order of their first body: pairs begin[a] .. begin[a+1]-1 belong to body a.
 struct FoundPairs {
   std::vector<std::uint32_t> begin, b;
 
@@ -46,7 +46,7 @@ struct FoundPairs {
 /// of the first body of the cell; `b` may be longer than there are pairs.
 void find_near(const Discs& discs, const Search& search, double skin, FoundPairs& found);
 
-/// What the pairs of an old list remember, and where it goes in the new one.
+/// Memories of the pairs in an old list, and their places in the new one.
 struct CarryOver {
   const std::uint32_t *i, *j;   // of the old pairs: twice the bodies' old indices
   const std::uint32_t* place;   // new index of each old body
@@ -56,8 +56,8 @@ struct CarryOver {
   double* to_memory;            // and per new pair
 };
 
-/// Carries over what pairs that stay have, if their impulse is not zero: those of the old pairs
-/// first .. last-1, both multiples of 8.
+/// Copies the memories of pairs that stay and have an impulse: old pairs first .. last-1, both
+/// multiples of 8.
 void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last);
 
 }  // namespace grseg

@@ -30,7 +30,7 @@ struct Pairs {
     double shift;  ///< m, to add to x_i - x_j for the nearest periodic image
     double reach;  ///< m, distance at which the pair touches: r_i + r_j, at a wall r_i
   };
-  /// Of the last step; all 0 for a pair that did not act.
+  /// State of a pair after the last step; all 0 for a pair that did not act.
   struct alignas(32) Memory {
     double n, t;      ///< kg m/s, its impulse
     double approach;  ///< m/s, of a pair that was slowed down (Rebound::remembered)

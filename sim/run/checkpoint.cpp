@@ -184,7 +184,7 @@ Checkpoint read_parts(const std::string& path)
   std::uint64_t digest = 0;
   read("/digest", digest);
   if (digest != digest_of(checkpoint))
-    fail("does not have the content that its digest names: it is damaged; use an older checkpoint");
+    fail("its content disagrees with its digest: it is damaged; use an older checkpoint");
   check_checkpoint(checkpoint, path);
   return checkpoint;
 }

@@ -45,7 +45,7 @@ class Check {
     in_scene(scene());
   }
 
-  /// What holds of every entry: as many values as there are grains or pairs, and finite numbers.
+  /// Requirements on every entry: as many values as there are grains or pairs, and finite numbers.
   template <class T>
   void operator()(const std::string& path, const T& value) const
   {

@@ -8,7 +8,7 @@
 
 namespace grseg {
 
-/// What a run is going to take, within a factor of about 1.5.
+/// Cost of a run before it begins, correct within a factor of about 1.5.
 struct ExpectedCost {
   double grains = 0;              // in the bed and its boundary
   double memory = 0;              // bytes

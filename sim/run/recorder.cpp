@@ -15,7 +15,7 @@ namespace {
 // In d_S, of the mean overlap. Grains that approach by more in a step may overlap by as much.
 constexpr double most_overlap = 0.01;
 
-/// What a frame's observables are about.
+/// Sources of a frame's observables.
 struct Written {
   const StepTotals& t;  // since the frame before
   const Simulation& simulation;

@@ -28,7 +28,7 @@ struct StepTotals {
   void add(const StepTotals& other);
   double per_step(double sum) const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
   double mean_overlap() const { return touching > 0 ? sum_overlap / touching : 0; }
-  /// Whether two grains, or one and a wall, overlapped by more than deep_overlap.
+  /// True where two grains, or one and a wall, overlapped by more than deep_overlap.
   bool passed_into(double small_diameter) const
   {
     return largest_overlap > std::max(deep_overlap * small_diameter, farthest_approach);
@@ -46,7 +46,7 @@ class Recorder {
  public:
   static std::vector<Observable> observables();
 
-  /// What the recorder knows between two steps.
+  /// State of the recorder between two steps.
   struct State {
     StepTotals since_frame;  ///< of the steps that no frame covers yet
     StepTotals totals;       ///< of the steps before

@@ -27,7 +27,7 @@ po::variables_map empty_command_line()
   return values;
 }
 
-/// Puts the clock and the impulses, which are those of one step, on steps of another length.
+/// Converts the clock and the impulses, which are sums over a step, to a step of another length.
 void change_step(Simulation::State& state, const Scene& before, const Scene& now)
 {
   if (before.step == now.step) return;

@@ -20,8 +20,8 @@ constexpr double largest_perturbation = 0.01;  // overlap is not pushed out agai
 
 /// The scene of `checkpoint`, read from the file `name`.
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name);
-/// The same where `given`, the command line, does not say otherwise. An accuracy that is given sets
-/// the keys that follow from it again.
+/// Scene of a checkpoint, with the keys that `given`, the command line, changes. A given accuracy
+/// also sets the keys that follow from it.
 Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
                const boost::program_options::variables_map& given);
 
@@ -29,14 +29,14 @@ Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
 /// `before`, which a restart cannot give.
 void require_same_bed(const Scene& before, const Scene& now);
 
-/// Whether the steps of `now` are those that would have followed under `before`: the scenes differ
-/// at most in how long the run lasts and how it is stored.
+/// True where a run under `now` takes the same steps as under `before`: the scenes differ at most
+/// in how long the run lasts and how it is stored.
 bool same_steps(const Scene& before, const Scene& now);
 
-/// The simulation that `checkpoint` holds, made under the scene `before`, under the scene `now`;
-/// its flow is not started yet (start_flow). Where the step differs, the clock counts in new steps
-/// and the impulses with which the solver begins become those of a new step. UsageError where the
-/// time is not a whole number of new steps.
+/// Simulation from a `checkpoint` of a run under the scene `before`, to go on under the scene
+/// `now`; its flow is not started yet (start_flow). Where the step differs, the clock counts in new
+/// steps and the impulses with which the solver begins become impulses of a new step. UsageError
+/// where the time is not a whole number of new steps.
 Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before, const Scene& now,
                                const Perturbation& perturbation);
 

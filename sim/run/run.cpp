@@ -92,7 +92,7 @@ struct Checkpoints {
 };
 
 /// Writes frames and checkpoints until the end or a signal. Checkpoints lie just before a frame, so
-/// that a restart may change the step; that of a signal does not wait for a frame.
+/// that a restart may change the step; a checkpoint after a signal does not wait for a frame.
 void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
           ProgressBar& progress)
 {
@@ -188,8 +188,8 @@ void announce(const Scene& scene, double begin, const RunOptions& options)
   if (!options.force) require_room(cost, options.output);
 }
 
-/// Whether the frames of `output` are those that `checkpoint` counts or, where a prolongation of it was
-/// interrupted, the first of those in output.part.
+/// True where `output` has as many frames as `checkpoint` counts or, after an interrupted
+/// prolongation, its frames are the first ones in output.part.
 bool begins_the_run(const std::string& output, const Checkpoint& checkpoint)
 {
   if (!holds_something(output)) return false;

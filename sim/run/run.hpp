@@ -33,12 +33,12 @@ struct RunOptions {
 /// `checkpoint_every`, on a signal and at the end.
 void simulate(const Scene& scene, const RunOptions& options);
 
-/// Continues `checkpoint` under the scene `given`, which must have the same bed. With the scene as it
-/// was, an output.part of the same run is cut back to the frames that the checkpoint counts, and ends
-/// bitwise as an uninterrupted run; UsageError where output.part is of another run. Where
-/// `options.continues` and only the run's length differs, a finished output is prolonged: what
-/// replaces it holds its frames and those that follow. In all other cases a new trajectory begins
-/// with the frames after the checkpoint.
+/// Continues `checkpoint` under the scene `given`, which must have the same bed. With an unchanged
+/// scene, an output.part of the same run is cut back to the frames that the checkpoint counts, and
+/// ends bitwise as an uninterrupted run; UsageError where output.part belongs to another run. Where
+/// `options.continues` and only the run's length differs, a finished output is prolonged: its
+/// replacement holds its frames and the new ones. In all other cases a new trajectory begins with
+/// the frames after the checkpoint.
 void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options);
 
 }  // namespace grseg

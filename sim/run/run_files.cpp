@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// Whether both are names of one file, be it there or not.
+/// True where both paths name one file, which need not exist.
 bool is_one_name(const std::string& a, const std::string& b)
 {
   std::error_code error;
@@ -26,7 +26,7 @@ bool is_one_name(const std::string& a, const std::string& b)
   return same_file(a, b) || whole(a) == whole(b);
 }
 
-/// Whether `run` can be that of `checkpoint`; only its frames prove it.
+/// True where `run` may belong to `checkpoint`; only its frames prove it.
 bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
 {
   return run.parameters().text("scene") == checkpoint.scene &&
@@ -73,7 +73,7 @@ void check_outputs(const RunOptions& options)
     if (same_file(checkpoint, options.restart)) break;
     if (!options.overwrite && holds_something(own) && holds_something(part_of(options.output)))
       throw UsageError(fmt::format(
-          "{} and {} are of an interrupted run: --continue goes on with it, --overwrite begins again",
+          "{} and {} belong to an interrupted run: --continue goes on with it, --overwrite begins again",
           own, part_of(options.output)));
     if (!same_file(own, options.restart)) check_output(own, options.overwrite, inputs);
   }

@@ -12,15 +12,15 @@
 /// The files that a run writes: how they are called while it runs, and how they get their names.
 namespace grseg {
 
-/// What the file is called while it is written: PATH.part.
+/// Name of the file while it is written: PATH.part.
 std::string part_of(const std::string& path);
 
 /// The checkpoint that `path` was before the last one was written: run_prev.chk for run.chk.
 std::string previous_of(const std::string& path);
 
-/// What must hold before time is spent on a run: UsageError where one of its files is an input, or
+/// Checks the files of a run before time is spent on it: UsageError where one of them is an input,
 /// two of them are one file, or one exists that may not be replaced. A checkpoint that the run
-/// continues may always be.
+/// continues may always be replaced.
 void check_outputs(const RunOptions& options);
 
 /// Keeps other runs from writing the trajectory and the checkpoint of this one. UsageError where one
@@ -38,7 +38,7 @@ class RunLocks {
 /// it. Leaves an empty file where there was none.
 void require_writable(const std::string& path);
 
-/// Whether there is a file with something in it.
+/// True where the file exists and is not empty.
 bool holds_something(const std::string& path);
 
 /// Renames the finished trajectory part_of(output) to `output`, compressed where `storage` asks for
@@ -46,7 +46,7 @@ bool holds_something(const std::string& path);
 /// they are.
 void publish_trajectory(const std::string& output, bool overwrite, const StorageSettings& storage);
 
-/// What a trajectory that goes on states: where it stands, and in its /parameters.
+/// A trajectory that goes on: its file, and its /parameters.
 struct Continuation {
   std::string from;  ///< file with the frames so far: `part` itself, or a finished run to prolong
   std::string part;  ///< file in which the run goes on

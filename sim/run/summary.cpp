@@ -83,7 +83,7 @@ std::string line(const char* title, const std::string& text)
   return fmt::format("  {:<10} {}\n", title, text);
 }
 
-/// What makes the run doubtful, a line each, with its remedy.
+/// Reasons to doubt the run, a line each, with its remedy.
 std::string doubts(const StepTotals& t, const Scene& scene)
 {
   std::string lines;
@@ -102,9 +102,9 @@ std::string doubts(const StepTotals& t, const Scene& scene)
                               t.divided == 1 ? "was" : "were"));
   if (t.mean_overlap() > small_overlap * scene.small_diameter)
     lines +=
-        line("doubt", fmt::format("the mean overlap is above {:g} d_S: contacts per grain, gaps "
-                                  "and, by some per cent, velocities suffer, B and the order of "
-                                  "rules hardly; choose a smaller --step or a larger --min-sweeps",
+        line("doubt", fmt::format("the mean overlap is above {:g} d_S: contacts per grain and gaps "
+                                  "suffer, velocities by some per cent, B and the order of rules "
+                                  "hardly; choose a smaller --step or a larger --min-sweeps",
                                   small_overlap));
   if (t.passed_into(scene.small_diameter))
     lines += line(

@@ -8,11 +8,11 @@
 
 #include <string>
 
-/// What files of a run state about how they were made, and what came of it.
+/// Statements in the files of a run about how they were made, and its result in numbers.
 namespace grseg {
 
-/// What the simulator leaves out because nothing in the scene needs it, each with the reason:
-/// "gravity (none), moving boundaries (all stand still)"; empty where the scene needs everything.
+/// Effects that the simulator leaves out because nothing in the scene needs them, each with the
+/// reason: "gravity (none), moving boundaries (all stand still)"; empty where the scene needs all.
 /// Results are bitwise the same with and without (docs/studies/performance.md).
 std::string effects_left_out(const Scene& scene);
 
@@ -22,12 +22,12 @@ std::string program_of_run();
 /// /parameters of a trajectory that begins with the deposition of `scene`.
 Parameters provenance(const Scene& scene, const RunOptions& options);
 
-/// The same of a trajectory that begins at `time`, s, with a restart; `history` has one line for
+/// Provenance of a trajectory that begins at `time`, s, with a restart; `history` has one line for
 /// each program run that led to it.
 Parameters provenance_of_restart(const Scene& scene, const RunOptions& options, double time,
                                  const std::string& history);
 
-/// What sets the stiffness of a bed that an iterative solver holds up.
+/// Quantities that set the stiffness of a bed held up by an iterative solver.
 struct StiffnessInput {
   double sweeps = 0;         // N per step, warm-started
   double step = 0;           // h, s
@@ -66,7 +66,7 @@ NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals);
 /// As /parameters/summary_*.
 Parameters to_parameters(const RunSummary& summary);
 
-/// Adds these parameters to those of a run that goes on; their values will be known at its end.
+/// Adds the parameters of the summary, with unknown values, to a run that goes on.
 void add_unknown_summary(Parameters& parameters);
 
 /// For the user: what was simulated, how accurate it is, and last what is doubtful, each with its

@@ -14,13 +14,14 @@
 namespace grseg {
 namespace {
 
-// Of the smallest grain's diameter. Weight wedges a grain into a gap: on a gap of 0.9 a grain pushes
-// with twice its weight on each of two beads twice its size, on one of 0.99 with six times.
+// Widest gap, in diameters of the smallest grain. Weight wedges a grain into a gap: on a gap of 0.9
+// a grain pushes with twice its weight on each of two beads twice its size, on one of 0.99 with six
+// times.
 constexpr double widest_gap_that_holds = 0.9;
 constexpr double fewest_beads = 4;       // so that no bead meets its own image
 constexpr double error_of_count = 1e-9;  // of a number of beads
-constexpr std::uint64_t own_stream = 1U
-                                     << 31;  // a seed of the base differs from that of grains here
+// Bit in which the seed of the base differs from the seed of the grains.
+constexpr std::uint64_t own_stream = 1U << 31;
 
 double mean_spacing(const Scene& scene, double at_least)
 {

@@ -167,7 +167,7 @@ struct Numbers {
   long large, small;
 };
 
-/// Of mobile grains that cover `area` (m^2).
+/// Numbers of mobile grains that cover `area` (m^2).
 Numbers numbers_of(const Scene& scene, double area)
 {
   const double quarter_pi = std::numbers::pi / 4;

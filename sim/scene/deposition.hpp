@@ -8,7 +8,7 @@
 
 namespace grseg {
 
-/// What a caller may have done during a deposition.
+/// Functions that deposit() calls, where they are set.
 struct DepositionHooks {
   /// Called after every step with the time, s, since this attempt began; what it throws ends the
   /// deposition.

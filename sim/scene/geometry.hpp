@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// What holds the grains of a scene while they are deposited.
+/// Boundaries of a scene during deposition.
 struct Boundaries {
   std::vector<Vec2> position;  // m, of boundary grains
   std::vector<double> radius;  // m
@@ -24,12 +24,12 @@ struct Room {
   double left = 0, right = 0;
 };
 
-/// Whether the user gave this key.
+/// True where the user gave this key.
 using KeyGiven = std::function<bool(const char* key)>;
 
-/// What bounds the grains of a scene, how it moves, and what changes at t = 0. There is one object
-/// for each value of the key `geometry`, in sim/scene/geometry. y = 0 is where Scene::origin puts
-/// it; in a drum, at its lowest point. Functions that may be null have no effect then.
+/// Boundaries of a scene: where they are, how they move, and how they change at t = 0. Each value
+/// of the key `geometry` has one such row, in sim/scene/geometry. y = 0 is where Scene::origin puts
+/// it; in a drum, at its lowest point. A null function has no effect.
 struct Geometry {
   const char* name;  ///< value of the key
   const char* help;  ///< what moves or opens, in a few words
@@ -37,8 +37,8 @@ struct Geometry {
   /// Checks what this geometry requires of other keys (SceneError), and sets the members of `scene`
   /// that follow from its own keys.
   void (*resolve)(Scene& scene, const KeyGiven& given) = nullptr;
-  /// Whether grains of the base can be shaken, and the keys base-... may ask for another row of beads
-  /// than the regular one; in all others there is neither.
+  /// True where grains of the base can be shaken, and the keys base-... may ask for another row of
+  /// beads than the regular one.
   bool shapes_base = false;
 
   Boundaries (*boundaries)(const Scene& scene);
@@ -46,15 +46,15 @@ struct Geometry {
   Room (*room_at)(const Scene& scene, double y) = nullptr;
   /// m^2, under the surface of the settled bed, voids included; null: depth times width at y = 0.
   double (*bed_area)(const Scene& scene) = nullptr;
-  /// Whether the deposition is repeated until the bed is as high as Scene::depth.
+  /// True where the deposition is repeated until the bed is as high as Scene::depth.
   bool checks_height = true;
 
   /// The deposited grains at t = 0, after what held them is gone or what presses them has come.
   Simulation (*release)(const Simulation& deposited, const Scene& scene) = nullptr;
-  /// Whether `release` neither adds nor removes grains, so that frames before and after t = 0 can
+  /// True where `release` neither adds nor removes grains, so that frames before and after t = 0 can
   /// be in one file.
   bool keeps_grains = true;
-  /// Whether one of `bodies` moves freely.
+  /// True where one of `bodies` moves freely.
   bool has_free_body = false;
   /// Boundary grains that move from t = 0 on; they are the last rows of `grains`.
   std::vector<BoundaryBody> (*bodies)(const Scene& scene, const Grains& grains) = nullptr;
@@ -77,7 +77,7 @@ Gravity<2> gravity_of(const Scene& scene);
 /// Scene::geometry's boundary grains that move; they are the last rows of `grains`.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 
-/// Whether any boundary grain moves.
+/// True where any boundary grain moves.
 bool moves_boundaries(const Scene& scene);
 
 // Each in the file of its name.
@@ -86,9 +86,8 @@ extern const Geometry bed_geometry, drum_geometry, shear_geometry, column_geomet
 /// All of them, in the order of --help.
 const std::vector<const Geometry*>& geometries();
 
-/// The scene at t = 0: what held the deposited grains until then is gone (the gate of a column, the
-/// plug of a hopper), the plate of a shear cell lies on them and they are sheared; gravity is that
-/// of the flow, and boundaries begin to move.
+/// The scene at t = 0: the gate of a column or the plug of a hopper is gone, the plate of a shear
+/// cell lies on the grains, the gravity of the flow acts, and boundaries begin to move.
 Simulation release(const Simulation& deposited, const Scene& scene);
 
 /// Gives `simulation`, whose clock is set, the gravity and the moving boundaries of the flow.

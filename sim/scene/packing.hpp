@@ -26,7 +26,8 @@ void remove_last_grains(Packing& packing, std::size_t count);
 /// A simulation of `packing` whose mobile grains move as the same rows of `before` do.
 Simulation set_in_motion(const Packing& packing, const Simulation& before);
 
-// What geometries are built from: beads (boundary grains of the large nominal diameter) and walls.
+// Parts that geometries are built from: beads (boundary grains of the large nominal diameter) and
+// walls.
 
 double bead_radius(const Scene& scene);  // m
 

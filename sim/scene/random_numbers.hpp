@@ -24,7 +24,7 @@ class RandomNumbers {
   // Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by operation.
   // They are compiled here, without contraction, because GSL on Arm rounds them differently.
 
-  /// Of mean 0.
+  /// A normal number of mean 0 and standard deviation `deviation`.
   double gaussian(double deviation)
   {
     double y = 0, squared = 0;

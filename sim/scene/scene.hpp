@@ -77,7 +77,7 @@ struct Scene {
   std::int64_t steps_in_all() const { return std::llround(duration / step); }
 };
 
-/// What the contact law of a scene amounts to.
+/// Numbers of the contact law of a scene.
 inline LawParameters law_parameters(const Scene& scene)
 {
   return law_parameters(scene.law, scene.horizon, scene.step, scene.gravity, scene.small_diameter);

@@ -25,8 +25,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// now += factor (now - before), and before = what now was, in rows of `count` numbers: those of `before`
-/// lie side by side, those of `now` are `apart` numbers from each other.
+/// now += factor (now - before), and before = now as it was, in rows of `count` numbers. Rows of
+/// `before` lie side by side; rows of `now` are `apart` numbers from each other.
 template <class Real>
 HWY_INLINE void extrapolate_rows(Real* now, std::size_t apart, Real* before, std::size_t count,
                                  std::size_t rows, Real factor)

@@ -31,7 +31,7 @@ class SingleContacts {
 
  private:
   struct Strip {
-    std::vector<BlockOf<float>> blocks;  // those of `runs_` are in use; never shrinks
+    std::vector<BlockOf<float>> blocks;  // `runs_` says how many are in use; never shrinks
     std::vector<std::uint32_t> ends;     // as in RunsOf
   };
   static void take_strip(const BlockRuns& contacts, Motion* motion, std::uint32_t idle,

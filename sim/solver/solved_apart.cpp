@@ -24,13 +24,14 @@ Vec2 parts_of(const Vec2& direction, const Contact& contact)
   return {direction.dot(n), direction.dot(t)};
 }
 
-/// Unit vector from the point of contact a to that of contact b, which are contacts of one disc.
+/// Unit vector from the point of contact a to the point of contact b; both are contacts of one
+/// disc.
 Vec2 line_between(const Contact& a, const Contact& b)
 {
   return Vec2(a.kappa * a.nx - b.kappa * b.nx, a.kappa * a.ny - b.kappa * b.ny).normalized();
 }
 
-/// Whether the bodies of two contacts move apart, by more than round-off.
+/// True where the bodies of two contacts move apart, by more than round-off.
 bool part(const Contact& a, const Contact& b, std::span<const Motion> motion)
 {
   const auto velocity = [&](const Contact& c) {
@@ -41,8 +42,8 @@ bool part(const Contact& a, const Contact& b, std::span<const Motion> motion)
   return (of_b - of_a).dot(line_between(a, b)) > 1e-6 * (of_a.norm() + of_b.norm());
 }
 
-/// Whether friction can lock a disc by two of its contacts, which then need not rebound; between
-/// bodies that part they bear nothing at first.
+/// True where friction can lock a disc by two of its contacts, which then need not rebound; between
+/// bodies that move apart they bear nothing at first.
 bool prepare(std::span<const ContactPlace> contacts, std::span<const Motion> motion,
              double friction)
 {

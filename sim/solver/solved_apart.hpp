@@ -104,10 +104,10 @@ class WedgedGrains {
   std::vector<std::vector<ContactPlace>> grains_;
 };
 
-/// Whether friction can lock a disc between a and b.
+/// True where friction can lock a disc between a and b.
 bool locks(const Contact& a, const Contact& b, double friction);
 
-/// What is solved apart after each sweep; null where there is none.
+/// Bodies that are solved apart after each sweep; null where there are none.
 struct SolvedApart {
   FreeBodies* free = nullptr;
   WedgedGrains* wedged = nullptr;

@@ -89,7 +89,7 @@ class LocalWork {
   bool local_ = false;
 };
 
-/// What a solve is asked for, but for the contacts.
+/// A solve apart from its contacts.
 struct Task {
   std::size_t count;  // of contacts
   double friction;

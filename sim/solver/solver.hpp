@@ -31,7 +31,7 @@ struct SolverSettings {
   Precision precision = Precision::doubles;
 };
 
-/// What the solver works on, kept by the caller from step to step to reuse its memory.
+/// Memory of the solver, kept by the caller from step to step.
 struct SolverMemory {
   ExtrapolationOf<double> doubles;
   ExtrapolationOf<float> singles;
@@ -58,27 +58,28 @@ struct SolverReport {
 };
 
 /// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while the others hold
-/// still, until no contact's relative velocity changes by more than `tolerance` times the
-/// reference velocity: the quadratic mean of W p over the `count` contacts, within `range`, so that a
-/// motionless bed stops at once and a few contacts of light grains under a heavy one do not count
-/// for all. Normal and tangential parts both count, and the largest
-/// rather than the mean change decides, so that a contact which has just closed is not hidden by
-/// thousands of settled ones. `min_sweeps` come first. Changes in the last digits of the fastest
-/// velocity are convergence, too: without gravity loads fade, and no number of sweeps makes changes
-/// small against them.
+/// still. Impulses in the blocks are the first guess; they are applied to `motion` here, whose last
+/// entry is the body that never moves.
 ///
-/// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies and wedged grains are solved
-/// in double precision, whatever the setting.
+/// The solve ends when no contact's relative velocity changes by more than `tolerance` times the
+/// reference velocity: the quadratic mean of W p over the `count` contacts, within `range`, so that
+/// a motionless bed stops at once and a few contacts of light grains under a heavy one do not count
+/// for all. Normal and tangential parts both count. The largest rather than the mean change decides,
+/// so that a contact which has just closed is not hidden by thousands of settled ones. `min_sweeps`
+/// come first. Changes in the last digits of the fastest velocity are convergence, too: without
+/// gravity loads fade, and no number of sweeps makes changes small against them.
 ///
-/// Impulses in the blocks are the first guess; they are applied to `motion` here, whose last entry
-/// is the body that never moves. Contacts come in strips and are swept run after run: those of even
-/// strips at a time, then those of odd ones. Strips that are not neighbours share no mobile body;
-/// sums are added strip by strip. Of several strips each is swept twice before the next, and counts
-/// as swept twice. Nobody waits for what the first eight of the least sweeps change then, so a
-/// strip makes them as soon as its neighbours let it (Wavefront): none of them ends the solve, and
-/// none restarts the extrapolation; this does not hold with bodies that are solved apart. When changes
-/// above the tolerance are left in a quarter of the strips or less, only these and their neighbours are
-/// swept further, without extrapolation; with bodies that are solved apart all are.
+/// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies and wedged grains are
+/// solved in double precision, whatever the setting.
+///
+/// Contacts come in strips and are swept run after run: first even strips, several at a time, then
+/// odd ones. Strips that are not neighbours share no mobile body; sums are added strip by strip.
+/// Where there are several strips, each is swept twice before the next, and counts as swept twice.
+/// The first eight sweeps are never the last and never restart the extrapolation, so each strip
+/// starts one as soon as its neighbours have finished theirs (Wavefront); not so with bodies that
+/// are solved apart. When changes above the tolerance are left in a quarter of the strips or less,
+/// only these and their neighbours are swept further, without extrapolation; with bodies that are
+/// solved apart all are.
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
                             std::span<Motion> motion, double friction, Effects effects,
                             const SolverSettings& settings, const ReferenceRange& range,

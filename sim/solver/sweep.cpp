@@ -184,7 +184,8 @@ void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effect
 
 Relax choose_relax(Effects e)
 {
-  // Of the set that every processor has: with others g++ 12 fuses products and sums of single numbers.
+  // Compiled for the instruction set that every processor has: with others g++ 12 fuses products
+  // and sums of single numbers.
   return with_flags(
       []<bool friction, bool rotation>() -> Relax {
         return HWY_NAMESPACE::relax<Effects{friction, rotation, true}, Contact, Motion, double>;

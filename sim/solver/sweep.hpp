@@ -13,14 +13,14 @@
 /// and added in one order.
 namespace grseg {
 
-/// What one pass over all contacts found.
+/// Sums and maxima of one pass over all contacts.
 struct SweepResult {
   double largest = 0;        // m/s
   double sum_squares = 0;    // (m/s)^2, of the changes
   double sum_reference = 0;  // (m/s)^2, of W p
 };
 
-/// What a sweep finds out beside relaxing: only the sum of squares, or all of SweepResult.
+/// Results of a sweep besides the relaxed contacts: only the sum of squares, or all of SweepResult.
 enum class Measured { squares, all };
 
 /// Relaxes all contacts once, block after block. Real is double or float.

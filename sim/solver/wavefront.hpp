@@ -8,18 +8,18 @@
 
 namespace grseg {
 
-/// Rounds of work on strips in a row or, if their number is even, a ring. In a round a strip is first
-/// worked on, those of even number before their odd neighbours, and is finished when its neighbours
+/// Rounds of work on strips in a row or, if their number is even, a ring. In a round a strip is
+/// first worked on, even strips before their odd neighbours, and is finished when its neighbours
 /// have been worked on, too. The next round may work on it when it and its neighbours are finished.
-/// Rather than finish one round before the next begins, a thread takes the strips that it last worked
-/// on as far as their neighbours allow, while they are in the cache. Each strip does and sees the same,
-/// so results are the same to the byte with any number of threads.
+/// Rather than finish one round before the next begins, a thread takes its last strips as far as
+/// their neighbours allow, while they are in the cache. Each strip does and sees the same, so
+/// results are the same to the byte with any number of threads.
 class Wavefront {
  public:
   /// `rounds` is at least 1.
   Wavefront(std::size_t strips, int rounds) : worked_(strips), finished_(strips), rounds_(rounds) {}
 
-  /// What is done with a strip in a round; rounds count from 0.
+  /// Work on a strip in a round; rounds count from 0.
   using Action = std::function<void(std::size_t strip, std::size_t round)>;
   /// Calls both once for each strip and round.
   void run(int threads, const Action& work, const Action& finish);

@@ -24,7 +24,8 @@ struct EnergyBalance {
   double kinetic_before = 0, kinetic_after = 0, work_of_gravity = 0, work_of_contacts = 0,
          work_of_boundaries = 0;
 
-  /// What the terms leave unexplained, over the largest of them; 0 if nothing moves.
+  /// Part of the balance that the terms leave unexplained, over the largest of them; 0 if nothing
+  /// moves.
   double defect() const;
 };
 

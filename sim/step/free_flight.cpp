@@ -13,7 +13,7 @@
 
 namespace grseg {
 
-// Plain pointers, captured by value, or the compiler fetches them anew for every grain.
+// Plain pointers, captured by value; otherwise the compiler fetches them again for every grain.
 
 void move_bodies(double duration, GrainState& grains, int threads)
 {

@@ -30,11 +30,11 @@ void accelerate(const Vec2& change, GrainState& grains, int threads);
 /// beyond most_periods.
 void wrap_positions(double length, GrainState& grains, int threads);
 
-// What a step does to World::bodies, boundary grains that move. `body_of` says where in `grains`
-// each row of Grains is.
+// Motion of World::bodies, boundary grains that move, during a step. `body_of` gives the place in
+// `grains` of each row of Grains.
 
-/// Gives them the velocities of the step that begins at `time`, s: those that are prescribed, and
-/// of a free body those along x. Rims turn with the body.
+/// Gives them the velocities of the step that begins at `time`, s: the prescribed ones and, for a
+/// free body, those along x. Rims turn with the body.
 void drive_boundaries(const World& world, double time, std::span<const std::uint32_t> body_of,
                       GrainState& grains);
 

@@ -21,10 +21,10 @@ namespace {
 // gravity, or a plate's load, makes of the mean grain in a step.
 constexpr double floor_of_reference = 1e-3;
 
-// The reference velocity of the solver is at most so many times what loads make of the mean grain; the
-// mean load is that of roots, so that a few heavy or squeezed grains do not make it. Chosen after
-// measuring: in the paper's flow the reference is 6.6 times that in the median and above 16 in less
-// than one step of a hundred (docs/studies/accuracy.md).
+// Largest reference velocity of the solver, in velocities that loads give to the mean grain. The
+// mean load is a mean of roots, so that a few heavy or squeezed grains do not dominate it. The
+// factor was measured: in the paper's flow the reference is 6.6 times that velocity in the median
+// and above 16 in less than one step of a hundred (docs/studies/accuracy.md).
 constexpr double most_of_loads = 16;
 // In the first step, in which boundaries may jerk, it is the load and this part of the fastest approach:
 // otherwise an impact that few sweeps pass on gains or loses a quarter of its energy.
@@ -62,7 +62,8 @@ Effects effects_of(const World& world)
           .restitution = world.general || world.material.restitution > 0 || world.law.horizon > 0};
 }
 
-/// Adds what a part did to what those before it did. Numbers of contacts are those of the last part.
+/// Adds the report of a part of the step to the parts before it. Numbers of contacts count
+/// the last part only.
 void add_part(const StepReport& part, StepReport& all)
 {
   const auto before = all;
@@ -79,10 +80,10 @@ void add_part(const StepReport& part, StepReport& all)
   all.base_impulse += before.base_impulse;
 }
 
-// Where all impulses together more than double in a step in which a pair approaches by more than four
-// times g h, there is an impact. The next step does not bear its impulses: as first guesses those that
-// more than doubled are lowered to twice what was guessed before: so they catch up in a few steps where
-// the load lasts.
+// An impact is a step in which all impulses together more than double while a pair approaches by
+// more than four times g h. The next step does not bear its impulses, so first guesses that more
+// than doubled are lowered to twice the guess before: they catch up in a few steps where the load
+// lasts.
 constexpr double most_growth_of_loads = 2;
 constexpr double approach_of_impact = 4;
 

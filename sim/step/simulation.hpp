@@ -17,7 +17,7 @@ namespace grseg {
 /// diameter in a part of it.
 constexpr int most_halvings = 6;
 
-/// What one step did.
+/// Results of one step.
 struct StepReport {
   SolverReport solver;
   std::size_t touching = 0;       ///< pairs with gap <= 0 at mid-step
@@ -66,7 +66,7 @@ class Simulation {
   Simulation(const World& world, const State& state);
 
   StepReport advance() { return step(nullptr); }
-  /// The same, and writes the step as a frame of a trajectory (formats/README.md): positions and
+  /// Takes a step and writes it as a frame of a trajectory (formats/README.md): positions and
   /// contacts at mid-step, velocities at its end, forces as means over it, in the order of Grains.
   StepReport advance(Frame<2>& frame) { return step(&frame); }
 
@@ -121,7 +121,7 @@ class Simulation {
   void take_back(bool renewed);
   void lengthen_impulses(double factor);
   void remember_motion();
-  /// Whether the list was renewed. `spread`, m/s, as move_bodies() returns it.
+  /// True where the list was renewed. `spread`, m/s, as move_bodies() returns it.
   bool find_contacts(double spread, StepReport& report);
   void forget_impulses(bool renewed);
   /// Lists the pairs of where grains will be `onward`, s, later.

@@ -52,7 +52,7 @@ mv runTERM.chk run.chk
 # shellcheck disable=SC2086
 stopped KILL on.chk 0.05 $chute --duration 10 --continue -o on.h5
 # shellcheck disable=SC2086
-refused 2 "on.chk and on.h5.part are of an interrupted run: --continue goes on with it, --overwrite begins again" \
+refused 2 "on.chk and on.h5.part belong to an interrupted run: --continue goes on with it, --overwrite begins again" \
   $chute --duration 10 --checkpoint on.chk -o on.h5
 # shellcheck disable=SC2086
 $bin/grseg-sim --quiet $chute --duration 10 --checkpoint on.chk --continue -o on.h5

@@ -123,7 +123,7 @@ KeyValue on_or_off(Member member)
   return value;
 }
 
-/// The same, and as an option it stands alone and means on.
+/// A member of type bool whose option stands alone and means on.
 template <class Member>
 KeyValue flag(Member member)
 {

@@ -69,7 +69,7 @@ std::vector<SceneKey> bed_keys()
     {"spread", "0.08", number(&Scene::spread, 0, 0.9), bed, yes,
      "(d_max - d_min)/d within a species, uniform"},
     {"density", "1", number(&Scene::density, 1e-9, 1e12), bed, yes,
-     "of the grains, kg/m^2; of the small ones where density-ratio is not 1"},
+     "density of the grains, kg/m^2; of the small ones where density-ratio is not 1"},
     {"density-ratio", "1", number(&Scene::density_ratio, 1e-3, 1e3), bed, yes,
      "density of the large grains over that of the small ones"},
     {"phi-large", "0.3", number(&Scene::phi_large, 0, 1), bed, yes,
@@ -79,13 +79,13 @@ std::vector<SceneKey> bed_keys()
     {"initial", "large-below", choice(&Scene::initial, Words<Scene::Initial>{
          {"large-below", Scene::Initial::large_below}, {"mixed", Scene::Initial::mixed},
          {"large-above", Scene::Initial::large_above}}), bed, yes,
-     "where the large grains of the deposited bed are: below the small ones, among them, or above"},
+     "place of the large grains in the deposited bed: below the small ones, among them, or above"},
     {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
      geometry_help()},
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
      "height of the deposited bed, within 2 %"},
     {"length", "35dL", length(&Scene::length, "4dL", "1e6dL"), bed, no,
-     "of the cell along x"},
+     "length of the cell along x"},
   };
 }
 
@@ -95,27 +95,27 @@ std::vector<SceneKey> flow_keys()
   using enum InParameters;
   return {
     {"slope", "23", number(&Scene::slope, -90, 90, "ANGLE"), flow, yes,
-     "of the base, degrees, at t = 0"},
+     "slope of the base at t = 0, degrees"},
     {"slope-rate", "0", number(&Scene::slope_rate, -1e9, 1e9), flow, yes,
-     "degrees/s by which the slope becomes steeper after t = 0"},
+     "rate at which the slope becomes steeper after t = 0, degrees/s"},
     {"gravity", "9.8", number(&Scene::gravity, 1e-9, 1e9), flow, no,
-     "m/s^2; in a shear cell during the deposition only, by default such that the bed presses on "
-     "its base about as the plate will"},
+     "gravity, m/s^2; in a shear cell it acts during the deposition only, by default so that the bed "
+     "presses on its base about as the plate will"},
     {"friction", "0.5", number(&Scene::friction, 0, 1e3), flow, yes,
-     "Coulomb's coefficient, all contacts"},
+     "Coulomb's coefficient of friction, for all contacts"},
     {"restitution", "0.25", number(&Scene::restitution, 0, 1), flow, yes,
-     "Newton's coefficient, all contacts"},
+     "Newton's coefficient of restitution, for all contacts"},
     {"contact-law", "", choice(&Scene::law, Words<ContactLaw>{
          {"speculative", ContactLaw::speculative}, {"touch", ContactLaw::touch},
          {"centred", ContactLaw::centred}, {"predictive", ContactLaw::predictive}}), flow, yes,
-     "which pairs act in a step: speculative (those about to touch are slowed down short of "
-     "overlap and rebound in the next step), touch (those that touch at its middle), centred (at "
-     "its end) or predictive (half a step later) (default: speculative; centred where restitution is "
-     "above 0.9)"},
+     "pairs that act in a step: speculative (pairs about to touch are slowed down short of overlap "
+     "and rebound in the next step), touch (pairs that touch at its middle), centred (at its end) "
+     "or predictive (half a step later) (default: speculative; centred where restitution is above "
+     "0.9)"},
     {"horizon", "0.75", number(&Scene::horizon, 1e-3, 1), flow, yes,
-     "of the speculative law: steps that it looks ahead"},
+     "number of steps that the speculative law looks ahead"},
     {"rotation", "on", on_or_off(&Scene::rotation), bed, yes,
-     "whether grains rotate"},
+     "rotation of the grains"},
   };
 }
 
@@ -129,45 +129,45 @@ std::vector<SceneKey> boundary_keys()
   return {
     {"base", "grains", choice(&Scene::base, Words<Base>{
          {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
-     "grains (a row of fixed grains, by default large ones that touch) or wall (straight)"},
+     "bottom: grains (a row of fixed grains, by default large ones that touch) or wall (straight)"},
     {"base-diameter", "1dL", length(&Scene::base_diameter, "0.1dS", "10dL"), bed, yes,
-     "of a bed's base: mean diameter of its grains"},
+     "mean diameter of the grains in a bed's base"},
     {"base-diameter-spread", "0", number(&Scene::base_diameter_spread, 0, 1), bed, yes,
-     "of a bed's base: (d_max - d_min)/d of its grains, uniform; their tops stay level"},
+     "(d_max - d_min)/d of the grains in a bed's base, uniform; their tops stay level"},
     {"base-height-spread", "0", length(&Scene::base_height_spread, "0", "10dL"), bed, yes,
-     "of a bed's base: its grains are lowered at random, by 0 to this, uniform; the highest stays "
-     "where it was"},
+     "largest distance by which grains of a bed's base are lowered at random, uniformly from 0 on; "
+     "the highest stays where it was"},
     {"base-spacing", "", length(&Scene::base_spacing, "0.1dS", "10dL"), bed, yes,
-     "of a bed's base: mean distance of its grains' centres along x, widened until a whole number "
+     "mean distance along x of the grains' centres in a bed's base, widened until a whole number "
      "fills the cell; below base-diameter they overlap (default: base-diameter)"},
     {"base-spacing-spread", "0", number(&Scene::base_spacing_spread, 0, 1), bed, yes,
-     "of a bed's base: (max - min)/mean of these distances, uniform"},
+     "(max - min)/mean of the distances base-spacing, uniform"},
     {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
          {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
-     "what bounds the cell along x"},
+     "sides of the cell along x"},
     {"origin", "top", choice(&Scene::origin, Words<Origin>{
          {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
-     "of y: top of the (highest) base grains, or half a base-diameter below it, their centre"},
+     "place of y = 0: top of the (highest) base grains, or their centre, half a base-diameter below"},
     {"drum-diameter", "100dS", length(&Scene::drum_diameter, "1dS", "1e6dL"), bed, no,
-     "of a drum, between its beads; at least 4dL"},
+     "diameter of a drum, between its beads; at least 4dL"},
     {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,
-     "of a drum, rad/s, counter-clockwise"},
+     "rotation rate of a drum, rad/s, counter-clockwise"},
     {"fill", "0.4", number(&Scene::fill, 0.01, 0.5), bed, no,
-     "of a drum: share of its area under the settled bed"},
+     "share of a drum's area under the settled bed"},
     {"plate-speed", "1", number(&Scene::plate_speed, -1e6, 1e6), flow, no,
-     "of a shear cell's plate, m/s"},
+     "speed of a shear cell's plate, m/s"},
     {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
-     "of a shear cell's plate on the grains, N/m"},
+     "pressure of a shear cell's plate on the grains, N/m"},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
-     "of a shear cell's plate, kg (default: that of its grains)"},
+     "mass of a shear cell's plate, kg (default: mass of its grains)"},
     {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12m"), bed, no,
-     "of a column before its gate opens; at least 1dL"},
+     "width of a column before its gate opens; at least 1dL"},
     {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12m"), bed, no,
      "width of a hopper's outlet"},
     {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12m"), flow, no,
-     "of a bed's base, vertical"},
+     "amplitude of the vertical shaking of a bed's base"},
     {"shake-frequency", "0", number(&Scene::shake_frequency, 0, 1e9), flow, no,
-     "of a bed's base, Hz"},
+     "frequency of this shaking, Hz"},
   };
 }
 
@@ -177,17 +177,17 @@ std::vector<SceneKey> run_keys()
   using enum InParameters;
   return {
     {"duration", "150", number(&Scene::duration, 0, 1e12, "SECONDS"), extent, no,
-     "s of flow, from the tilt at t = 0 on"},
+     "duration of the flow from the tilt at t = 0 on, s"},
     {"frame-interval", "0.05", number(&Scene::frame_interval, 1e-12, 1e12, "SECONDS"), flow, yes,
-     "s from frame to frame, or from burst to burst"},
+     "time from frame to frame, or from burst to burst, s"},
     {"burst", "1", whole_number(&Scene::burst, 1, most), flow, yes,
-     "number of frames, of consecutive steps, written at each interval"},
+     "number of frames at each interval, one per step"},
     {"keep-deposition", "off", flag(&Scene::keep_deposition), bed, no,
      "write the deposition too, as frames at t < 0"},
     {"seed", "1", whole_number(&Scene::seed, 1, 4294967295), bed, yes,
-     "of the random numbers"},
+     "seed of the random numbers"},
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
-     "for wide scenes; 0 uses all cores. Results do not depend on it"},
+     "number of threads, for wide scenes; 0 uses all cores. Results do not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
      "sets step, tolerance, min-sweeps, max-sweeps and precision where they are not given; where the "
      "masses of small and large grains differ much, up to 16 times the sweeps and a tolerance as "
@@ -195,17 +195,17 @@ std::vector<SceneKey> run_keys()
     {"step", "", number(&Scene::step, 1e-15, 1e12, "SECONDS"), flow, yes,
      set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
     {"tolerance", "", number(of_solver(&SolverSettings::tolerance), 1e-15, 1e3), flow, yes,
-     set_by_accuracy("of the solver: largest change of a relative velocity in the last sweep, over "
-                     "the mean one that forces make")},
+     set_by_accuracy("tolerance of the solver: largest change of a relative velocity in the last "
+                     "sweep, over the mean relative velocity that forces make")},
     {"min-sweeps", "", whole_number(of_solver(&SolverSettings::min_sweeps), 1, most), flow, yes,
-     set_by_accuracy("of the solver, per step, unless one changes nothing; with too few a bed is "
-                     "soft")},
+     set_by_accuracy("least number of sweeps per step, unless one changes nothing; with too few a "
+                     "bed is soft")},
     {"max-sweeps", "", whole_number(of_solver(&SolverSettings::max_sweeps), 1, most), flow, yes,
-     set_by_accuracy("of the solver, per step")},
+     set_by_accuracy("largest number of sweeps per step")},
     {"precision", "", choice(of_solver(&SolverSettings::precision), precision_words()), flow, yes,
-     set_by_accuracy("of the solver's sweeps: mixed relaxes contacts in single precision")},
+     set_by_accuracy("precision of the sweeps: mixed relaxes contacts in single precision")},
     {"acceleration", "on", on_or_off(of_solver(&SolverSettings::acceleration)), flow, yes,
-     "whether sweeps are extrapolated (Nesterov)"},
+     "extrapolation of sweeps (Nesterov)"},
     {"compression", "0", whole_number(&Scene::compression, 0, 9), extent, no,
      "deflate level of the finished file; 0 does not compress"},
     {"store", "float64", choice(&Scene::float32, Words<bool>{

@@ -27,11 +27,11 @@ struct KeyValue {
   std::function<std::string(const Scene&)> text;
   /// The scene's value as a number, 1 for on; of a choice, empty.
   std::function<double(const Scene&)> number;
-  /// Whether the option stands alone on the command line and means on.
+  /// True where the option stands alone on the command line and means on.
   bool is_flag = false;
 };
 
-/// What a key belongs to, and so what a restart may do with it.
+/// Part of the scene that a key describes, which decides what a restart may do with it.
 enum class KeyRole {
   bed,     ///< the deposited bed: a restart cannot change it
   flow,    ///< how grains move and which frames are written: a restart that changes it begins a
@@ -48,12 +48,12 @@ struct SceneKey {
   std::string default_text;  ///< the default; "" where it follows from other keys (resolve.cpp)
   KeyValue value;
   KeyRole role;
-  /// Whether /parameters holds it under its own name, with _ for -. All keys but those of
-  /// KeyRole::machine are in /parameters/scene.
+  /// Form in which /parameters holds the key under its own name, with _ for -. All keys except
+  /// KeyRole::machine are also in /parameters/scene.
   InParameters stored;
   std::string help;
 
-  /// What KeyValue::text gave, as a scene file states it: a length with its "m".
+  /// The value `text`, made by KeyValue::text, as a scene file states it: a length with its "m".
   std::string with_unit(const std::string& text) const;
 };
 
@@ -69,7 +69,7 @@ boost::program_options::options_description scene_options();
 /// solver by accuracy, the mass of a plate). SceneError names the key that is wrong.
 Scene resolve_scene(const boost::program_options::variables_map& values);
 
-/// What a value of the key `accuracy` stands for, where the keys below are not given.
+/// Values that a word of the key `accuracy` stands for, where the keys below are not given.
 struct Accuracy {
   const char* name;
   double step;                 // in sqrt(d_S/g)
@@ -90,10 +90,10 @@ constexpr std::array<const char*, 5> keys_of_accuracy{"step", "tolerance", "min-
 
 // A scene as text (scene_text.cpp).
 
-/// The scene as a file that gives the same run: every key in SI but those of KeyRole::machine.
+/// The scene as a file that gives the same run: every key except KeyRole::machine, in SI.
 std::string to_text(const Scene& scene);
 
-/// What /parameters of a trajectory states of the scene.
+/// Parameters of the scene in /parameters of a trajectory.
 Parameters to_parameters(const Scene& scene);
 
 /// `now` with the values of `before` where both are the same up to round-off: 70 d_S of 5 mm are 350 mm,
@@ -107,8 +107,8 @@ std::string differing_key(const Scene& a, const Scene& b, KeyRole role);
 /// the file is missing, FormatError with file, line and remedy where a key is unknown.
 void read_scene_file(const std::string& path, boost::program_options::variables_map& values);
 
-/// The same for a scene given as text, which messages call `name`. Keys of `text` that `leave_out`
-/// names are passed over.
+/// Reads a scene given as text, which messages call `name`. Keys of `text` that `leave_out` names
+/// are passed over.
 void read_scene_text(const std::string& text, const std::string& name,
                      const std::vector<std::string>& leave_out,
                      boost::program_options::variables_map& values);

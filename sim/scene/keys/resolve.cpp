@@ -24,11 +24,12 @@ constexpr double largest_turn = 1;     // degree per step: a step feels the grav
 constexpr double least_chords = 20;
 // d_S: within a step its load may move a plate by so much; half of it may become overlap.
 constexpr double farthest_by_load = 0.1;
-// Masses of a large grain, in those of a small one, up to which the presets do. Beyond them heavy
-// grains sink into light ones, or light ones lift them (docs/studies/hard-cases.md).
+// Largest mass of a large grain, in masses of a small one, for which the presets suffice. Beyond it
+// heavy grains sink into light ones, or light ones lift them (docs/studies/hard-cases.md).
 constexpr double heaviest_large = 16;
-// The same of a plate, over each small grain that finds room under it. A bed that sweeps compress in
-// several steps throws a heavier one back (docs/studies/accuracy.md).
+// Largest mass of a plate, in masses of the small grains that find room under it, for which the
+// presets suffice. A bed that sweeps compress in several steps throws a heavier one back
+// (docs/studies/accuracy.md).
 constexpr double heaviest_plate = 1;
 constexpr double most_sweeps_factor = 16;
 // Above this restitution pairs rebound in the step in which they meet: the speculative law changes
@@ -87,8 +88,9 @@ void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
                       scene.frame_interval, scene.step));
 }
 
-/// By how much sweeps must grow, and their tolerance shrink, where grains bear much heavier ones, or a
-/// heavy plate: a sweep gives a heavy body only as much of an impulse as stops a light one.
+/// Factor by which sweeps must grow, and their tolerance shrink, where grains bear much heavier
+/// ones, or a heavy plate: a sweep gives a heavy body only as much of an impulse as stops a light
+/// one.
 int more_sweeps(const Scene& scene)
 {
   double contrast = 1;

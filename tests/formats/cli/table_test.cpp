@@ -113,7 +113,7 @@ TEST(Table, ThatWasCutIsRefusedWhereverItWasCut)
             "t.tsv: does not end with the line '# end: N rows, xxh3 ...' of every table of "
             "grseg-stress " +
                 version() +
-                "; it is truncated or damaged, make it anew (a table made by hand has no line "
+                "; it is truncated or damaged, make it again (a table made by hand has no line "
                 "'# program: ...')");
 }
 
@@ -124,7 +124,7 @@ TEST(Table, InWhichLinesWereRepeatedOrRemovedIsRefused)
   const auto last_row = text.substr(row, end - row);
   EXPECT_EQ(complaint(text.substr(0, end) + last_row + text.substr(end)),
             "t.tsv: has 3 rows, but ends with '# end: 2 rows, xxh3 " +
-                text.substr(text.size() - 17, 16) + "'; it is damaged, make it anew");
+                text.substr(text.size() - 17, 16) + "'; it is damaged, make it again");
   EXPECT_TRUE(is_refused(text.substr(0, row) + text.substr(end)));
   EXPECT_TRUE(is_refused(text + last_row));
   EXPECT_TRUE(is_refused(text + text.substr(end)));
@@ -141,7 +141,7 @@ TEST(Table, MadeByHandNeedsNoEndButIsCheckedWhereItHasOne)
   EXPECT_EQ(complaint(text + end_line(text, 1) + "\n"), "no complaint");
   EXPECT_EQ(complaint(text + end_line("another", 1) + "\n"),
             "t.tsv: does not agree with the checksum in its last line: it was changed or damaged "
-            "after it was written; make it anew");
+            "after it was written; make it again");
 }
 
 TEST(Table, OfAProgramNeedsAnEnd)
@@ -150,7 +150,7 @@ TEST(Table, OfAProgramNeedsAnEnd)
     EXPECT_EQ(complaint("# program: " + std::string(program) + "\nt0\n1\n"),
               "t.tsv: does not end with the line '# end: N rows, xxh3 ...' of every table of " +
                   std::string(program) +
-                  "; it is truncated or damaged, make it anew (a table made by hand has no line "
+                  "; it is truncated or damaged, make it again (a table made by hand has no line "
                   "'# program: ...')");
 }
 

@@ -152,7 +152,7 @@ TEST_F(CheckpointFile, AChangedNumberIsToldByTheDigest)
     put(file, "/trajectory/since_frame/base_impulse_x", H5T_NATIVE_DOUBLE, 0.1000001);
   });
   EXPECT_EQ(complaint(), path +
-                             ": does not have the content that its digest names: it is damaged; "
+                             ": its content disagrees with its digest: it is damaged; "
                              "use an older checkpoint");
 }
 
