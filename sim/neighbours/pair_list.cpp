@@ -20,54 +20,49 @@ std::uint32_t whole_blocks(std::size_t pairs)
   return static_cast<std::uint32_t>((pairs + block_lanes - 1) / block_lanes * block_lanes);
 }
 
+/// Class of the pair a, b; marks its colour as taken.
+std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState& grains,
+                       std::vector<PairColours::Taken>& taken)
+{
+  static_assert(PairColours::palette == 65);
+  const auto bit = [](int free) { return free < 64 ? std::uint64_t{1} << free : 0; };
+  const bool a_moves = grains.motion[a].inverse_mass > 0;
+  const bool b_moves = grains.motion[b].inverse_mass > 0;
+  if (a_moves && b_moves) {
+    const int free = std::countr_one(taken[a].among_grains | taken[b].among_grains);
+    taken[a].among_grains |= bit(free);
+    taken[b].among_grains |= bit(free);
+    return static_cast<std::uint8_t>(free);
+  }
+  if (!a_moves && !b_moves) return PairColours::no_class;
+  auto& on_base = taken[a_moves ? a : b].on_base;
+  const int free = std::countr_one(on_base);
+  on_base |= bit(free);
+  return static_cast<std::uint8_t>(PairColours::on_base + static_cast<std::size_t>(free));
+}
+
 }  // namespace
 
 void PairColours::colour(const FoundPairs& found, const CellGrid& grid, const GrainState& grains,
                          int threads)
 {
-  taken_.resize(grains.size());
-  class_of_.resize(found.size());
-  sizes_.resize(grid.strips());
-  for_alternate_strips(threads, sizes_.size(),
-                       [&](std::size_t s) { colour_strip(s, found, grid, grains); });
-}
-
-std::uint8_t PairColours::class_for(std::uint32_t a, std::uint32_t b, const GrainState& grains)
-{
-  constexpr std::size_t colours = palette - 1;
-  const auto bit = [](int free) { return free < 64 ? std::uint64_t{1} << free : 0; };
-  static_assert(colours == 64);
-  const bool a_moves = grains.motion[a].inverse_mass > 0;
-  const bool b_moves = grains.motion[b].inverse_mass > 0;
-  if (a_moves && b_moves) {
-    const int free = std::countr_one(taken_[a].among_grains | taken_[b].among_grains);
-    taken_[a].among_grains |= bit(free);
-    taken_[b].among_grains |= bit(free);
-    return static_cast<std::uint8_t>(free);
-  }
-  if (!a_moves && !b_moves) return no_class;
-  auto& taken = taken_[a_moves ? a : b].on_base;
-  const int free = std::countr_one(taken);
-  taken |= bit(free);
-  return static_cast<std::uint8_t>(on_base + static_cast<std::size_t>(free));
-}
-
-void PairColours::colour_strip(std::size_t strip, const FoundPairs& found, const CellGrid& grid,
-                               const GrainState& grains)
-{
-  const auto bodies = grid.bodies_of_strip(strip);
-  for (auto a = bodies.begin; a < bodies.end; ++a) taken_[a] = {};
-  if (sizes_.size() > 1)
-    for (auto f = found.begin[bodies.begin]; f < found.begin[bodies.end]; ++f)
-      taken_[found.b[f]] = {};
-  auto& size = sizes_[strip];
-  size.fill(0);
-  for (auto a = bodies.begin; a < bodies.end; ++a) {
-    for (auto f = found.begin[a]; f < found.begin[a + 1]; ++f) {
-      class_of_[f] = class_for(a, found.b[f], grains);
-      if (class_of_[f] != no_class) ++size[class_of_[f]];
+  taken.resize(grains.size());
+  class_of.resize(found.size());
+  sizes.resize(grid.strips());
+  for_alternate_strips(threads, sizes.size(), [&](std::size_t s) {
+    const auto bodies = grid.bodies_of_strip(s);
+    for (auto a = bodies.begin; a < bodies.end; ++a) taken[a] = {};
+    if (sizes.size() > 1)
+      for (auto f = found.begin[bodies.begin]; f < found.begin[bodies.end]; ++f)
+        taken[found.b[f]] = {};
+    sizes[s].fill(0);
+    for (auto a = bodies.begin; a < bodies.end; ++a) {
+      for (auto f = found.begin[a]; f < found.begin[a + 1]; ++f) {
+        class_of[f] = class_for(a, found.b[f], grains, taken);
+        if (class_of[f] != no_class) ++sizes[s][class_of[f]];
+      }
     }
-  }
+  });
 }
 
 PairList::PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius,
@@ -84,19 +79,19 @@ PairList::PairList(const std::vector<Wall>& walls, const Box& box, double larges
 
 bool PairList::complete(const std::vector<Vec2>& position, double farthest)
 {
-  return search_.made_at().size() == position.size() &&
-         completeness_.holds(search_.made_at(), position, farthest);
+  return search_.made_at.size() == position.size() &&
+         completeness_.holds(search_.made_at, position, farthest);
 }
 
 void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
 {
   ++renewals_;
   search_.find(grains, position);
-  completeness_.begin(search_.grid(), grains, search_.made_at());
-  colours_.colour(search_.found(), search_.grid(), grains, threads_);
+  completeness_.begin(search_.grid, grains, search_.made_at);
+  colours_.colour(search_.found, search_.grid, grains, threads_);
   std::swap(pairs_, old_pairs_);
-  strips_.resize(search_.grid().strips());
-  number_.resize(search_.found().size());
+  strips_.resize(search_.grid.strips());
+  number_.resize(search_.found.size());
   lay_out();
   for_each_part(threads_, strips_.size(), [&](std::size_t s) { fill_in(s, grains); });
   carry_memories();
@@ -105,7 +100,7 @@ void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
 PairList::State PairList::state() const
 {
   State state;
-  state.made_at = search_.made_at();
+  state.made_at = search_.made_at;
   state.skin = skin_;
   state.renewals = renewals_;
   state.i = pairs_.i;
@@ -147,10 +142,10 @@ void PairList::lay_out()
     strip.begin = begin;
     for (std::size_t c = 0; c < PairColours::all_classes; ++c) {
       strip.next[c] = begin;
-      add_class(colours_.sizes(s)[c], -1, c % palette == palette - 1, c >= PairColours::on_base);
+      add_class(colours_.sizes[s][c], -1, c % palette == palette - 1, c >= PairColours::on_base);
     }
     for (std::size_t w = 0; w < walls_; ++w)
-      add_class(search_.at_wall(s, w).size(), static_cast<std::int32_t>(w), false, true);
+      add_class(search_.strips[s].at_wall[w].size(), static_cast<std::int32_t>(w), false, true);
     strip.end = begin;
     pairs_.strips.push_back(static_cast<std::uint32_t>(pairs_.classes.size()));
   }
@@ -180,13 +175,13 @@ void PairList::fill_in(std::size_t strip, const GrainState& grains)
   for (const auto& c : pairs_.classes_of(strip))
     for (auto k = c.end - block_lanes; k < c.end; ++k) write(k, nobody, nobody, {0, not_a_number});
 
-  const auto bodies = search_.grid().bodies_of_strip(strip);
-  const auto& found = search_.found();
-  const auto& made_at = search_.made_at();
+  const auto bodies = search_.grid.bodies_of_strip(strip);
+  const auto& found = search_.found;
+  const auto& made_at = search_.made_at;
   for (auto a = bodies.begin; a < bodies.end; ++a) {
     const bool first = grains.motion[a].inverse_mass > 0;
     for (auto f = found.begin[a]; f < found.begin[a + 1]; ++f) {
-      const auto c = colours_.class_of(f);
+      const auto c = colours_.class_of[f];
       if (c == PairColours::no_class) continue;
       const auto b = found.b[f];
       const double shift = nearest_shift(made_at[a].x() - made_at[b].x());
@@ -198,7 +193,7 @@ void PairList::fill_in(std::size_t strip, const GrainState& grains)
   for (const auto& c : pairs_.classes_of(strip)) {
     if (c.wall < 0) continue;
     auto k = c.begin;
-    for (const auto b : search_.at_wall(strip, static_cast<std::size_t>(c.wall)))
+    for (const auto b : search_.strips[strip].at_wall[static_cast<std::size_t>(c.wall)])
       write(k++, 2 * b, nobody, {0, grains.radius[b]});
   }
   std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, Pairs::Memory{});
@@ -228,7 +223,7 @@ void PairList::carry_memories()
 {
   const auto& old = old_pairs_;
   if (old.classes.empty() || pairs_.classes.empty()) return;
-  const CarryOver task{old.i.data(),   old.j.data(),     search_.place().data(), &search_.found(),
+  const CarryOver task{old.i.data(),   old.j.data(),     search_.place.data(), &search_.found,
                        number_.data(), &old.memory[0].n, &pairs_.memory[0].n};
   for_each_part(threads_, old.classes.size(), [&](std::size_t n) {
     if (old.classes[n].wall < 0) carry_over(task, old.classes[n].begin, old.classes[n].end);
@@ -237,7 +232,7 @@ void PairList::carry_memories()
     if (c.wall < 0) continue;
     for (auto k = c.begin; k < c.end; ++k)
       if (old.memory[k].n != 0 || old.memory[k].t != 0)
-        carry_wall_memory(search_.place()[old.i[k] / 2], c.wall, k);
+        carry_wall_memory(search_.place[old.i[k] / 2], c.wall, k);
   }
 }
 

@@ -20,8 +20,7 @@ namespace grseg {
 /// relaxed at the same time. First fit: a pair takes the first colour that neither of its mobile
 /// bodies has yet, in the order of the pairs; immobile bodies take no colour. Pairs of two mobile
 /// grains and pairs with a boundary grain ("base") are coloured apart.
-class PairColours {
- public:
+struct PairColours {
   /// A class per colour, and one for pairs that are left without; the same again for pairs on the
   /// base, from class on_base on.
   static constexpr std::size_t palette = 65, on_base = palette, all_classes = 2 * palette;
@@ -29,27 +28,13 @@ class PairColours {
 
   void colour(const FoundPairs& found, const CellGrid& grid, const GrainState& grains, int threads);
 
-  /// Class of a found pair.
-  std::uint8_t class_of(std::size_t pair) const { return class_of_[pair]; }
-  /// Number of a strip's pairs in each class.
-  const std::array<std::uint32_t, all_classes>& sizes(std::size_t strip) const
-  {
-    return sizes_[strip];
-  }
-
- private:
   struct Taken {
     std::uint64_t among_grains = 0, on_base = 0;  // a bit per colour
   };
 
-  /// Class of the pair a, b; marks its colour as taken.
-  std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState& grains);
-  void colour_strip(std::size_t strip, const FoundPairs& found, const CellGrid& grid,
-                    const GrainState& grains);
-
-  std::vector<Taken> taken_;            // per body
-  std::vector<std::uint8_t> class_of_;  // per found pair
-  std::vector<std::array<std::uint32_t, all_classes>> sizes_;
+  std::vector<Taken> taken;                                   // per body
+  std::vector<std::uint8_t> class_of;                         // per found pair
+  std::vector<std::array<std::uint32_t, all_classes>> sizes;  // pairs in each class, per strip
 };
 
 /// The list of pairs that may touch: PairSearch finds them, PairColours sorts them into classes, so
@@ -61,13 +46,10 @@ class PairList {
            double margin = 0, int threads = 1);
 
   /// True while the list holds every pair that may touch at `position` (m, in the order of
-  /// GrainState; not wrapped since the list was made, which set the pairs' shifts).
-  bool complete(const std::vector<Vec2>& position)
-  {
-    return complete(position, std::numeric_limits<double>::infinity());
-  }
-  /// And no two that may touch have moved by more than `farthest`, m, relative to each other.
-  bool complete(const std::vector<Vec2>& position, double farthest);
+  /// GrainState; not wrapped since the list was made, which set the pairs' shifts), and no
+  /// two that may touch have moved by more than `farthest`, m, relative to each other.
+  bool complete(const std::vector<Vec2>& position,
+                double farthest = std::numeric_limits<double>::infinity());
   /// Makes a new list for grains at `position`, m; pairs that stay keep what they remember. Sorts
   /// `grains` along the cells.
   void renew(GrainState& grains, const std::vector<Vec2>& position);
@@ -77,7 +59,7 @@ class PairList {
   /// As if no pair had ever touched.
   void forget();
   std::size_t renewals() const { return renewals_; }
-  Range bodies_of_strip(std::size_t strip) const { return search_.grid().bodies_of_strip(strip); }
+  Range bodies_of_strip(std::size_t strip) const { return search_.grid.bodies_of_strip(strip); }
   /// See Completeness.
   double fastest_unlisted(const std::vector<Motion>& motion) const
   {
