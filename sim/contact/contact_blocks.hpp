@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// As many contacts as the widest vector has numbers. The number is the same on every instruction
-/// set, so that sums over lanes are too; narrower vectors take a block in parts.
+/// Number of contacts in a block: as many as the widest vector has numbers. It is the same on every
+/// instruction set, so that sums over lanes are too; narrower vectors take a block in parts.
 template <class Real>
 constexpr std::uint32_t lanes_of = 64 / sizeof(Real);
 constexpr std::uint32_t block_lanes = lanes_of<double>;

@@ -80,10 +80,11 @@ constexpr double solver_error = 0.01;
 /// 0.3 it is the same as where nothing returns.
 constexpr double parting_error = 0.1;
 
-/// The only place in sim that decides what a law means; analysis/check/laws_of_motion.cpp states the
-/// same for grseg-check. All but `law` matter to the speculative law alone: its margin is what
-/// neighbours may add to the approach of a pair within the horizon, at a velocity of sqrt(g d_S).
-/// `horizon` in steps, `step` in s, `gravity` in m/s^2, `small_diameter` in m.
+/// Parameters of a law: the only place in sim that decides what a law means;
+/// analysis/check/contact_violations.cpp states the same for grseg-check. All arguments but `law`
+/// matter to the speculative law alone: its margin is the part that neighbours may add to the
+/// approach of a pair within the horizon, at a velocity of sqrt(g d_S). `horizon` in steps, `step`
+/// in s, `gravity` in m/s^2, `small_diameter` in m.
 inline LawParameters law_parameters(ContactLaw law, double horizon, double step, double gravity,
                                     double small_diameter)
 {
@@ -132,10 +133,11 @@ struct WholeImpulses {
   Number impulse_n, impulse_t;  // kg m/s
 };
 
-/// In single precision impulses are increments on a `base`, which velocities contain already: the
-/// last digit is then one of what a step changes, not one of the load, and a bed at rest does not
-/// creep. They are per mass_n: the relative velocities that they make, of which each body takes the part
-/// that its weight says. So a relaxation needs no mass, and the chain of its operations is shorter.
+/// A contact in single precision, where impulses are increments on a `base` that velocities already
+/// contain. The last digit is then relative to the change in a step, not to the load, and a bed at
+/// rest does not creep. Impulses are per mass_n: the relative velocities that they make, of which
+/// each body takes the part that its weight says. So a relaxation needs no mass, and the chain of
+/// its operations is shorter.
 template <class Number>
 struct Increments {
   Number nx, ny;

@@ -89,23 +89,12 @@ class LocalWork {
   bool local_ = false;
 };
 
-/// A solve apart from its contacts.
-struct Task {
-  std::size_t count;  // of contacts
-  double friction;
-  Effects effects;
-  const SolverSettings& settings;
-  ReferenceRange range;
-  int threads;
-  SolvedApart apart;  // with doubles only
-};
-
 /// One solve, from the first guess on, which the velocities contain.
 template <class Real>
 class Sweeping {
  public:
-  Sweeping(std::span<const RunsOf<Real>> strips, std::span<MotionOf<Real>> motion, const Task& task,
-           ExtrapolationOf<Real>& extrapolation)
+  Sweeping(std::span<const RunsOf<Real>> strips, std::span<MotionOf<Real>> motion,
+           const SolverTask& task, ExtrapolationOf<Real>& extrapolation)
       : strips_(strips),
         motion_(motion),
         task_(task),
@@ -225,7 +214,7 @@ class Sweeping {
 
   std::span<const RunsOf<Real>> strips_;
   std::span<MotionOf<Real>> motion_;
-  const Task& task_;
+  const SolverTask& task_;
   ExtrapolationOf<Real>& extrapolation_;
   const int least_;  // sweeps
   // The second sweep of a strip finds its contacts in the cache.
@@ -236,7 +225,7 @@ class Sweeping {
   double round_off_ = 0;  // m/s, once it is needed
 };
 SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                         const Task& task, SolverMemory& memory)
+                         const SolverTask& task, SolverMemory& memory)
 {
   auto& contacts = memory.contacts;
   contacts.take(strips, motion, task.effects, task.threads);
@@ -250,18 +239,16 @@ SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> mo
 
 }  // namespace
 
-SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
-                            std::span<Motion> motion, double friction, Effects effects,
-                            const SolverSettings& settings, const ReferenceRange& range,
-                            SolverMemory& memory, int threads, const SolvedApart& apart)
+SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion> motion,
+                            const SolverTask& task, SolverMemory& memory)
 {
-  if (count == 0) return {};
-  const Task task{count, friction, effects, settings, range, threads, apart};
-  if (settings.precision == Precision::mixed && !apart.any())
+  const auto& apart = task.apart;
+  if (task.count == 0) return {};
+  if (task.settings.precision == Precision::mixed && !apart.any())
     return solve_mixed(strips, motion, task, memory);
   const auto apply = [&] {
-    for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
-      apply_impulses(strips[s].blocks, motion.data(), effects);
+    for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
+      apply_impulses(strips[s].blocks, motion.data(), task.effects);
     });
   };
   if (apart.free == nullptr) {

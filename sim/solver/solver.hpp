@@ -13,20 +13,20 @@
 
 namespace grseg {
 
-/// In what precision sweeps relax contacts. Under `mixed` it is single precision: a contact's
-/// relative velocity is then off by some 1e-7 of the fastest velocity, far below the tolerance of a
-/// flow. All else is done in double precision. Sweeps find increments on the first guesses, which
-/// are added to impulses and velocities at the end, so that momentum and angular momentum balance
-/// to round-off.
+/// Precision in which sweeps relax contacts. `mixed` is single precision: a contact's relative
+/// velocity is then off by some 1e-7 of the fastest velocity, far below the tolerance of a flow.
+/// All else is done in double precision. Sweeps find increments on the first guesses, which are
+/// added to impulses and velocities at the end, so that momentum and angular momentum balance to
+/// round-off.
 enum class Precision { mixed, doubles };
 
 struct SolverSettings {
   double tolerance = 1e-2;  ///< on SolverReport::residual
   int max_sweeps = 500;
   bool acceleration = false;
-  /// At least so many sweeps, unless one changes nothing (see solve_contacts). A sweep passes a
-  /// load on to the next grain only, so while a bed still has to find its weight small changes do
-  /// not mean small errors: such a bed is soft if every step stops at the first or second sweep.
+  /// Least number of sweeps, unless one changes nothing (see solve_contacts). A sweep passes a load
+  /// on to the next grain only, so while a bed still has to find its weight small changes do not
+  /// mean small errors: such a bed is soft if every step stops at the first or second sweep.
   int min_sweeps = 1;
   Precision precision = Precision::doubles;
 };
@@ -49,7 +49,18 @@ struct ReferenceRange {
   }
 };
 
-/// How a step's solve went. Not converging is a result: it is stored and reported, not thrown.
+/// A solve apart from its contacts and bodies.
+struct SolverTask {
+  std::size_t count;  // of contacts
+  double friction;
+  Effects effects;
+  SolverSettings settings;
+  ReferenceRange range;
+  int threads = 1;
+  SolvedApart apart = {};
+};
+
+/// Outcome of a step's solve. Not converging is a result: it is stored and reported, not thrown.
 struct SolverReport {
   int sweeps = 0;           ///< relaxations per contact, rounded up
   double residual = 0;      ///< largest change of the last sweep / reference velocity
@@ -80,9 +91,7 @@ struct SolverReport {
 /// are solved apart. When changes above the tolerance are left in a quarter of the strips or less,
 /// only these and their neighbours are swept further, without extrapolation; with bodies that are
 /// solved apart all are.
-SolverReport solve_contacts(std::span<const BlockRuns> strips, std::size_t count,
-                            std::span<Motion> motion, double friction, Effects effects,
-                            const SolverSettings& settings, const ReferenceRange& range,
-                            SolverMemory& memory, int threads = 1, const SolvedApart& apart = {});
+SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion> motion,
+                            const SolverTask& task, SolverMemory& memory);
 
 }  // namespace grseg

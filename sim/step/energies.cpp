@@ -12,35 +12,39 @@ double kinetic_energy(double mass, const Vec2& velocity, double rim_speed)
   return mass * (velocity.squaredNorm() / 2 + rim_speed * rim_speed / 4);
 }
 
+/// Sum of energy_of(g), J, over the mobile grains.
+template <class Energy>
+double total(const Grains& grains, const Energy& energy_of)
+{
+  double energy = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (!grains.fixed[g]) energy += energy_of(g);
+  return energy;
+}
+
 }  // namespace
 
 double translational_energy(const Simulation& s)
 {
   const auto& grains = s.world().grains;
-  double energy = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (!grains.fixed[g]) energy += grains.mass[g] * s.velocity(g).squaredNorm() / 2;
-  return energy;
+  return total(grains,
+               [&](std::size_t g) { return grains.mass[g] * s.velocity(g).squaredNorm() / 2; });
 }
 
 double rotational_energy(const Simulation& s)
 {
   const auto& grains = s.world().grains;
-  double energy = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    const double speed = s.motion(g).rim_speed;
-    if (!grains.fixed[g]) energy += grains.mass[g] * speed * speed / 4;
-  }
-  return energy;
+  return total(grains, [&](std::size_t g) {
+    return grains.mass[g] * s.motion(g).rim_speed * s.motion(g).rim_speed / 4;
+  });
 }
 
 double potential_energy(const Simulation& s)
 {
   const auto& grains = s.world().grains;
-  double energy = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (!grains.fixed[g]) energy -= grains.mass[g] * s.world().gravity.dot(s.position(g));
-  return energy;
+  return total(grains, [&](std::size_t g) {
+    return -grains.mass[g] * s.world().gravity.dot(s.position(g));
+  });
 }
 
 double EnergyBalance::defect() const

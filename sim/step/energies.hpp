@@ -15,11 +15,11 @@ double translational_energy(const Simulation& simulation);
 double rotational_energy(const Simulation& simulation);
 double potential_energy(const Simulation& simulation);
 
-/// Where the kinetic energy (J per metre of depth) of a step comes from. The mid-point scheme obeys
-/// KE' - KE = sum m g h . (v + v')/2 + sum p . (u + u')/2 to round-off, with p a contact's impulse
-/// and u the relative velocity of the grains where they touch, before and after (theta = 1/2;
-/// Acary & Brogliato 2008, section 10.1). Work of contacts below zero is dissipation; what moving
-/// boundaries do to the grains is counted apart.
+/// Balance of the kinetic energy (J per metre of depth) over a step. The mid-point scheme obeys KE'
+/// - KE = sum m g h . (v + v')/2 + sum p . (u + u')/2 to round-off, with p a contact's impulse and
+/// u the relative velocity of the grains where they touch, before and after (theta = 1/2; Acary &
+/// Brogliato 2008, section 10.1). Work of contacts below zero is dissipation; the work of moving
+/// boundaries on the grains is counted apart.
 struct EnergyBalance {
   double kinetic_before = 0, kinetic_after = 0, work_of_gravity = 0, work_of_contacts = 0,
          work_of_boundaries = 0;

@@ -14,12 +14,12 @@ namespace grseg {
 /// Moves all bodies on by `duration`.
 void move_bodies(double duration, GrainState& grains, int threads);
 
-/// Moves all bodies on by `duration`; `ahead` becomes where they would be `onward` later still, m.
-/// Returns a bound on how fast any two bodies move relative to each other, m/s.
+/// Moves all bodies on by `duration`; `ahead` becomes their positions `onward` later still, m.
+/// Returns a bound on the relative velocity of any two bodies, m/s.
 double move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
                    int threads);
 
-/// Where all bodies would be `onward` later, m.
+/// Positions of all bodies `onward` later, m.
 void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
                         int threads);
 

@@ -208,6 +208,9 @@ void Simulation::take(const Part& part, Frame<2>* frame, StepReport& report)
   StepReport own;
   if (try_to_take(part, frame, own)) return add_part(own, report);
   const double half = std::ldexp(1, -part.halvings - 1);
+  const auto lengthen_impulses = [&](double factor) {
+    for (auto& memory : pairs_.memories()) scale(factor, memory);
+  };
   world_.step = length / 2;
   lengthen_impulses(0.5);
   take({part.begin, part.halvings + 1}, nullptr, report);
@@ -223,7 +226,11 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
   const double begin = at(part.begin), middle = at(part.begin + std::ldexp(0.5, -part.halvings));
   if (gravity_.turns()) world_.gravity = gravity_.at(begin + h / 2);
   drive_boundaries(world_, begin, body_of_, state_);
-  if (frame != nullptr) remember_motion();
+  if (frame != nullptr) {
+    written_step_ = h;
+    before_.clear();
+    for (const auto body : body_of_) before_.push_back(state_.motion[body]);
+  }
   if (pairs_.renewals() == 0) renew_pairs(0);
 
   const double spread = move_bodies(h / 2, world_.law.forecast * h, state_, ahead_, threads_);
@@ -252,18 +259,6 @@ void Simulation::take_back(bool renewed)
   restored_ = true;  // the contacts of the step before are entries of an old list
 }
 
-void Simulation::lengthen_impulses(double factor)
-{
-  for (auto& memory : pairs_.memories()) scale(factor, memory);
-}
-
-void Simulation::remember_motion()
-{
-  written_step_ = world_.step;
-  before_.clear();
-  for (const auto body : body_of_) before_.push_back(state_.motion[body]);
-}
-
 WedgedGrains Simulation::wedged_grains(bool any)
 {
   std::vector<std::span<ContactBlock>> on_base;
@@ -281,7 +276,11 @@ void Simulation::solve(StepReport& report)
     strips.push_back(contacts_[s].used(pairs_.bodies_of_strip(s)));
     count += contacts_[s].count;
   }
-  if (may_have_impact()) remember_guesses();
+  guesses_.clear();
+  if (found_.fastest_approach > approach_of_impact * impulse_of_fall() / mobile_mass_)
+    for_blocks(contacts_, [&](const ContactBlock& block, const BlockOrigin&) {
+      guesses_.insert(guesses_.end(), block.impulse_n.begin(), block.impulse_n.end());
+    });
   const bool any_free = std::any_of(world_.bodies.begin(), world_.bodies.end(),
                                     [](const auto& body) { return body.free(); });
   std::optional<FreeBodies> free;
@@ -289,9 +288,10 @@ void Simulation::solve(StepReport& report)
   // A plate that moves freely transmits its load by squeezing.
   auto wedged = wedged_grains(!any_free && effects_.friction);
   const SolvedApart apart{free ? &*free : nullptr, wedged.empty() ? nullptr : &wedged};
-  report.solver =
-      solve_contacts(strips, count, state_.motion, world_.material.friction, effects_,
-                     world_.solver, reference_range(count), solver_memory_, threads_, apart);
+  report.solver = solve_contacts(strips, state_.motion,
+                                 {count, world_.material.friction, effects_, world_.solver,
+                                  reference_range(count), threads_, apart},
+                                 solver_memory_);
 }
 
 double Simulation::impulse_of_fall() const
@@ -400,23 +400,10 @@ void Simulation::keep_impulses(StepReport& report)
   report.base_impulse = sums.on_base_side;
 }
 
-bool Simulation::may_have_impact() const
-{
-  return found_.fastest_approach > approach_of_impact * impulse_of_fall() / mobile_mass_;
-}
-
-void Simulation::remember_guesses()
-{
-  guesses_.clear();
-  for_blocks(contacts_, [&](const ContactBlock& block, const BlockOrigin&) {
-    guesses_.insert(guesses_.end(), block.impulse_n.begin(), block.impulse_n.end());
-  });
-}
-
 void Simulation::lower_guesses()
 {
-  if (!may_have_impact()) return;
-  if (!(sum_of_impulses(contacts_) > most_growth_of_loads * (found_.load + impulse_of_fall())))
+  if (guesses_.empty() ||
+      !(sum_of_impulses(contacts_) > most_growth_of_loads * (found_.load + impulse_of_fall())))
     return;
   for (const auto& [pair, factor] :
        impacts_of(contacts_, guesses_, impulse_of_fall() / mobile_mass_))

@@ -13,8 +13,8 @@
 
 namespace grseg {
 
-/// How often a step is halved, at most, so that no pair approaches by more than half the smallest
-/// diameter in a part of it.
+/// Largest number of times that a step is halved, so that no pair approaches by more than half the
+/// smallest diameter in a part of it.
 constexpr int most_halvings = 6;
 
 /// Results of one step.
@@ -25,10 +25,11 @@ struct StepReport {
   double sum_overlap = 0;         ///< m, of -gap over the touching pairs
   double largest_overlap = 0;     ///< m
   double sum_gap_bearing = 0;     ///< m, of |gap| over force-bearing contacts
-  /// m/s, of a pair that acts, at the beginning of the step; or of grains that are not listed and
-  /// may have met before its middle or may meet before its end.
+  /// m/s, largest approach speed at the beginning of the step, over acting pairs and over unlisted
+  /// pairs that could touch within the step.
   double fastest_approach = 0;
-  /// m, the same times the length of the step or of its part; infinity where two centres coincide.
+  /// m, fastest_approach times the length of the step or of its part; infinity where two centres
+  /// coincide.
   double farthest_approach = 0;
   int parts = 1;                     ///< in which the step was taken
   Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
@@ -43,9 +44,9 @@ struct StepReport {
 ///
 /// sim/contact/contact_law.hpp states which pairs act, and the law that their impulses obey.
 ///
-/// Where a pair would approach by more than half the smallest diameter in a step, so that grains might
-/// pass each other unseen, the step is taken in two halves, and these in halves again, up to
-/// 1/64 of the step. A frame of such a step is one of its last part.
+/// Where a pair would approach by more than half the smallest diameter in a step, so that grains
+/// might pass each other unseen, the step is taken in two halves, and these in halves again, up to
+/// 1/64 of the step. The frame of such a step describes its last part.
 class Simulation {
  public:
   /// All that changes from step to step and that later steps depend on.
@@ -115,34 +116,30 @@ class Simulation {
     int halvings = 0;  // of the step
   };
   void take(const Part& part, Frame<2>* frame, StepReport& report);
-  /// False where the part is too long: positions are then those before, to round-off, and the list of
-  /// pairs is one of there.
+  /// False where the part is too long: positions are then as before, to round-off, and the list of
+  /// pairs belongs to them.
   bool try_to_take(const Part& part, Frame<2>* frame, StepReport& report);
   void take_back(bool renewed);
-  void lengthen_impulses(double factor);
-  void remember_motion();
   /// True where the list was renewed. `spread`, m/s, as move_bodies() returns it.
   bool find_contacts(double spread, StepReport& report);
   void forget_impulses(bool renewed);
-  /// Lists the pairs of where grains will be `onward`, s, later.
+  /// Makes the list of pairs for the positions that grains will have `onward`, s, later.
   void renew_pairs(double onward);
-  /// m/s, of grains that may meet before the end of the step, as they move now, and do not act.
+  /// m/s, largest approach speed of grains that do not act and may meet before the end of the step,
+  /// as they move now.
   double unlisted_ahead(double spread);
   [[noreturn]] void stop_at_coincidence(double time) const;
   WedgedGrains wedged_grains(bool any);
-  bool may_have_impact() const;
-  void remember_guesses();
-  /// Where there is an impact, lowers what the next step begins with.
+  /// Where there is an impact, lowers the first guesses of the next step.
   void lower_guesses();
   double impulse_of_fall() const;  // kg m/s, of gravity or a plate's load in a step
   ReferenceRange reference_range(std::size_t contacts) const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
-  // A solved step before the grains leave its middle, which is at `middle`, s (snapshot.cpp).
+  // Writes a solved step before the grains leave its middle, which is at `middle`, s
+  // (snapshot.cpp).
   void write_frame(double middle, Frame<2>& frame) const;
-  void write_positions(Frame<2>& frame) const;
   void write_contacts(ContactList<2>& list) const;
-  void write_motion(Frame<2>& frame) const;
 
   World world_;
   Gravity<2> gravity_;
@@ -156,13 +153,13 @@ class Simulation {
   double most_approach_;                // m
   double mobile_mass_;                  // kg
   DetectionSums found_;                 // of the contacts
-  std::vector<double> guesses_;         // kg m/s, p_n that the solve began with, where it matters
+  std::vector<double> guesses_;         // kg m/s, p_n at first; empty where no impact can be
   std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
   double written_step_ = 0;             // s
   std::vector<StripContacts> contacts_;
   SolverMemory solver_memory_;
   std::int64_t steps_done_ = 0;
-  bool restored_ = false;  // of the step before only the impulses are known, not the contacts
+  bool restored_ = false;  // the step before is known by its impulses only, not by its contacts
 };
 
 }  // namespace grseg

@@ -28,30 +28,19 @@ std::int32_t name_of_wall(const Pairs& pairs, std::size_t pair)
   return -1;
 }
 
-}  // namespace
-
-void Simulation::write_positions(Frame<2>& frame) const
+/// Brings x into [0, length); `image` counts the periods that were taken away.
+void wrap(double length, double& x, std::int32_t& image)
 {
-  const std::size_t count = state_.size();
-  frame.position.resize(count);
-  frame.image.resize(count);
-  for (std::size_t g = 0; g < count; ++g) {
-    frame.position[g] = state_.position[body_of_[g]];
-    frame.image[g] = {state_.image[body_of_[g]], 0};
+  double periods = std::floor(x / length);
+  x -= periods * length;
+  if (x >= length) {  // a tiny negative x rounds up to the period itself
+    x = 0;
+    ++periods;
   }
-  if (!world_.box.periodic_x) return;
-  const double length = world_.box.length_x;
-  for (std::size_t g = 0; g < count; ++g) {
-    double& x = frame.position[g].x();
-    double periods = std::floor(x / length);
-    x -= periods * length;
-    if (x >= length) {  // a tiny negative x rounds up to the period itself
-      x = 0;
-      ++periods;
-    }
-    frame.image[g][0] += static_cast<std::int32_t>(periods);
-  }
+  image += static_cast<std::int32_t>(periods);
 }
+
+}  // namespace
 
 void Simulation::write_contacts(ContactList<2>& list) const
 {
@@ -88,29 +77,27 @@ void Simulation::write_contacts(ContactList<2>& list) const
   }
 }
 
-void Simulation::write_motion(Frame<2>& frame) const
+void Simulation::write_frame(double middle, Frame<2>& frame) const
 {
   const std::size_t count = state_.size();
+  frame.step = steps_done_;
+  frame.time = middle;
+  frame.position.resize(count);
+  frame.image.resize(count);
   frame.velocity.resize(count);
   frame.angular_velocity.resize(count);
   frame.force.resize(count);
   for (std::size_t g = 0; g < count; ++g) {
-    const auto& motion = state_.motion[body_of_[g]];
-    const Vec2 velocity(motion.vx, motion.vy);
-    frame.velocity[g] = velocity;
-    frame.angular_velocity[g] = motion.rim_speed / world_.grains.radius[g];
-    const Vec2 change = velocity - Vec2(before_[g].vx, before_[g].vy);
+    const auto body = body_of_[g];
+    frame.position[g] = state_.position[body];
+    frame.image[g] = {state_.image[body], 0};
+    if (world_.box.periodic_x) wrap(world_.box.length_x, frame.position[g].x(), frame.image[g][0]);
+    frame.velocity[g] = velocity(g);
+    frame.angular_velocity[g] = angular_velocity(g);
+    const Vec2 change = frame.velocity[g] - Vec2(before_[g].vx, before_[g].vy);
     frame.force[g] = world_.grains.mass[g] * change / world_.step;
   }
-}
-
-void Simulation::write_frame(double middle, Frame<2>& frame) const
-{
-  frame.step = steps_done_;
-  frame.time = middle;
-  write_positions(frame);
   write_contacts(frame.contacts);
-  write_motion(frame);
 }
 
 }  // namespace grseg

@@ -142,7 +142,7 @@ inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<M
   const std::array strips{packed.runs()};
   SolverMemory memory;
   const auto report =
-      solve_contacts(strips, contacts.size(), motion, friction, effects, settings, range, memory);
+      solve_contacts(strips, motion, {contacts.size(), friction, effects, settings, range}, memory);
   motion.pop_back();
   packed.unpack(contacts);
   return report;

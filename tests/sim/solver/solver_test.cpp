@@ -94,8 +94,8 @@ struct Rows {
     std::vector<BlockRuns> strips;
     for (auto& p : packed) strips.push_back(p.runs());
     SolverMemory memory;
-    return solve_contacts(strips, packed.size() * (discs - 1), motion, 0, {}, {1e-6, 10000}, 0,
-                          memory, threads);
+    return solve_contacts(strips, motion,
+                          {packed.size() * (discs - 1), 0, {}, {1e-6, 10000}, 0, threads}, memory);
   }
 };
 
@@ -200,8 +200,9 @@ TEST(Solver, StripsThatGoAheadEndWhereRoundAfterRoundEnds)
       for (const int threads : {1, 2, 3}) {
         Net net(rows);
         SolverMemory memory;
-        const auto report = solve_contacts(net.strips, 19 * rows, net.motion, 0.5, {},
-                                           {1e9, most, acceleration, least}, 0, memory, threads);
+        const auto report = solve_contacts(
+            net.strips, net.motion,
+            {19 * rows, 0.5, {}, {1e9, most, acceleration, least}, 0, threads}, memory);
         EXPECT_EQ(report.sweeps, sweeps);
         EXPECT_EQ(net.numbers(), expected.numbers())
             << rows << " rows, " << sweeps << " sweeps, " << threads << " threads";
@@ -215,8 +216,8 @@ TEST(Solver, StripsThatGoAheadInSinglePrecisionGiveTheSameWithAnyNumberOfThreads
   const auto solved = [](int threads) {
     Net net(30);
     SolverMemory memory;
-    solve_contacts(net.strips, 19 * 30, net.motion, 0.5, {}, {1e-3, 100, true, 8, Precision::mixed},
-                   0, memory, threads);
+    solve_contacts(net.strips, net.motion,
+                   {19 * 30, 0.5, {}, {1e-3, 100, true, 8, Precision::mixed}, 0, threads}, memory);
     return net.numbers();
   };
   const auto alone = solved(1);
