@@ -50,44 +50,36 @@ hid_t type_of()
     return std::is_unsigned_v<T> ? H5T_STD_U64LE : H5T_STD_I64LE;
 }
 
-class Writer {
- public:
-  explicit Writer(hid_t file) : file_(file) {}
+struct Writer {
+  hid_t file;
 
   void operator()(const char* path, const std::string& text) const
   {
     const auto type = string_type(text.size());
-    write_fixed(file_, path, type, type, {}, text.c_str());
+    write_fixed(file, path, type, type, {}, text.c_str());
   }
   template <class T>
   void operator()(const char* path, const std::vector<T>& values) const
   {
     std::vector<hsize_t> shape{values.size()};
     if (rank_of<T> == 2) shape.push_back(columns_of<T>);
-    write_fixed(file_, path, type_of<T>(), type_of<T>(), shape, values.data());
+    write_fixed(file, path, type_of<T>(), type_of<T>(), shape, values.data());
   }
   template <class T>
   void operator()(const char* path, const T& value) const
   {
-    write_fixed(file_, path, type_of<T>(), type_of<T>(), {}, &value);
+    write_fixed(file, path, type_of<T>(), type_of<T>(), {}, &value);
   }
-
- private:
-  hid_t file_;
 };
 
-class Reader {
- public:
-  Reader(hid_t file, std::string name) : file_(file), name_(std::move(name))
-  {
-    H5Fget_filesize(file_, &bytes_);
-  }
+struct Reader {
+  hid_t file;
+  const std::string& name;  // of the file
 
   void operator()(const char* path, std::string& text) const
   {
-    const CheckedDataset dataset(file_, path, H5T_STRING, 0, name_);
+    const CheckedDataset dataset(file, path, H5T_STRING, 0, name);
     const Type type(H5Dget_type(dataset.id()));
-    require_room(path, 1, H5Tget_size(type));
     text.resize(H5Tget_size(type));
     dataset.read_all(type, text.data());
     text.erase(std::min(text.find('\0'), text.size()));  // padding
@@ -95,17 +87,16 @@ class Reader {
   template <class T>
   void operator()(const char* path, std::vector<T>& values) const
   {
-    const CheckedDataset dataset(file_, path, kind_of<T>, rank_of<T>, name_);
+    const CheckedDataset dataset(file, path, kind_of<T>, rank_of<T>, name);
     if (rank_of<T> == 2) dataset.require(1, columns_of<T>);
-    const Type type(H5Dget_type(dataset.id()));
-    require_room(path, dataset.dims()[0], columns_of<T> * H5Tget_size(type));
+    dataset.require_possible(dataset.dims()[0]);
     values.resize(dataset.dims()[0]);
     dataset.read_all(type_of<T>(), values.data());
   }
   template <class T>
   void operator()(const char* path, T& value) const
   {
-    CheckedDataset(file_, path, kind_of<T>, 0, name_).read_all(type_of<T>(), &value);
+    CheckedDataset(file, path, kind_of<T>, 0, name).read_all(type_of<T>(), &value);
   }
   void operator()(const char* path, bool& value) const
   {
@@ -113,21 +104,6 @@ class Reader {
     (*this)(path, number);
     value = number != 0;
   }
-
- private:
-  /// Nothing is packed, so nothing is larger than the file: no memory for a size that is damaged.
-  void require_room(const char* path, hsize_t rows, std::size_t row_bytes) const
-  {
-    if (rows > bytes_ / row_bytes)
-      throw FormatError(
-          fmt::format("{}: {} has {} entries, more than fit into the file: it is damaged; use an "
-                      "older checkpoint",
-                      name_, path, rows));
-  }
-
-  hid_t file_;
-  std::string name_;
-  hsize_t bytes_ = 0;
 };
 
 std::uint64_t digest_of(const Checkpoint& checkpoint)
@@ -143,7 +119,7 @@ void write_parts(const std::string& path, const Checkpoint& checkpoint)
   File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, without_time(), newest_format()));
   if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
   try {
-    Writer writer(file);
+    const Writer writer{file};
     writer("/version", format_version);
     visit_all(writer, checkpoint);
     writer("/digest", digest_of(checkpoint));
@@ -171,7 +147,7 @@ Checkpoint read_parts(const std::string& path)
   const auto file = open_checkpoint(path);
   if (!exists(file, "/version") || !exists(file, "/state"))
     fail("is not a checkpoint of grseg-sim; name the file that --checkpoint wrote");
-  const Reader read(file, path);
+  const Reader read{file, path};
   std::int32_t version = 0;
   read("/version", version);
   if (version != format_version)

@@ -147,19 +147,16 @@ class Check {
     require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
   }
 
-  void totals(const char* group, const StepTotals& totals) const
-  {
-    require(totals.steps >= 0 && totals.missed >= 0 && totals.divided >= 0,
-            fmt::format("{} has a negative number of steps", group));
-  }
-
   void trajectory() const
   {
     const auto& trajectory = c_.trajectory;
     require(trajectory.frames <= largest_count, "/trajectory/frames is not a number of frames");
     require(trajectory.wall >= 0, "/trajectory/wall is not a duration in s");
-    totals("/trajectory/since_frame", trajectory.recorder.since_frame);
-    totals("/trajectory/totals", trajectory.recorder.totals);
+    const auto& [since_frame, totals] = trajectory.recorder;
+    for (const auto& [group, t] :
+         {std::pair{"/trajectory/since_frame", &since_frame}, {"/trajectory/totals", &totals}})
+      require(t->steps >= 0 && t->missed >= 0 && t->divided >= 0,
+              fmt::format("{} has a negative number of steps", group));
   }
 
   Scene scene() const

@@ -68,9 +68,10 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals);
 }
 
-/// The digest of a checkpoint vouches for its values; this, for a file by other hands, that a run
-/// can continue from them: everything that is used as an index, a count or a physical number is one.
-/// FormatError naming the file `name`, the entry and the remedy.
+/// Checks that a run can continue from the values of a checkpoint: everything that is used as an
+/// index, a count or a physical number is one. The digest only shows that values are as they were
+/// written, and a file by other hands has a digest, too. FormatError naming the file `name`, the
+/// entry and the remedy.
 void check_checkpoint(const Checkpoint& checkpoint, const std::string& name);
 
 }  // namespace grseg

@@ -26,23 +26,6 @@ bool is_one_name(const std::string& a, const std::string& b)
   return same_file(a, b) || whole(a) == whole(b);
 }
 
-/// True where `run` may belong to `checkpoint`; only its frames prove it.
-bool same_run(const TrajectoryReader& run, const Checkpoint& checkpoint)
-{
-  return run.parameters().text("scene") == checkpoint.scene &&
-         run.grains().radius == checkpoint.grains.radius &&
-         run.size() >= checkpoint.trajectory.frames;
-}
-
-/// /parameters of a run that continues: its end is not known any more.
-Parameters without_end(Parameters parameters, const Continuation& to)
-{
-  add_unknown_summary(parameters);
-  parameters.texts["history"] = to.history;
-  parameters.texts["scene"] = to.scene;
-  return parameters;
-}
-
 }  // namespace
 
 std::string part_of(const std::string& path)
@@ -130,9 +113,15 @@ TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint
   const RemoveAtEnd clean_up(copy);
   try {
     const TrajectoryReader run(to.from);
-    require(same_run(run, checkpoint));
-    auto writer = copy_frames(run, checkpoint.trajectory.frames, copy,
-                              without_end(run.parameters(), to), Recorder::observables(), storage);
+    require(run.parameters().text("scene") == checkpoint.scene &&
+            run.grains().radius == checkpoint.grains.radius &&
+            run.size() >= checkpoint.trajectory.frames);
+    auto parameters = run.parameters();
+    add_unknown_summary(parameters);
+    parameters.texts["history"] = to.history;
+    parameters.texts["scene"] = to.scene;
+    auto writer = copy_frames(run, checkpoint.trajectory.frames, copy, parameters,
+                              Recorder::observables(), storage);
     require(writer.digest() == checkpoint.trajectory.digest);
     writer.flush();
     publish_file(copy, to.part, true);

@@ -60,13 +60,6 @@ std::string solver_in_words(const StepTotals& t, const Scene& scene)
       scene.solver.tolerance);
 }
 
-std::string overlap_in_words(const StepTotals& t, const Scene& scene)
-{
-  const double d = scene.small_diameter;
-  return fmt::format("{:.1e} d_S in the mean over pairs that overlap, {:.1e} d_S at most",
-                     t.mean_overlap() / d, t.largest_overlap / d);
-}
-
 std::string stiffness_in_words(const NumericalStiffness& s)
 {
   const auto remedy = fmt::format(
@@ -167,18 +160,16 @@ Parameters provenance_of_restart(const Scene& scene, const RunOptions& options, 
 NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals)
 {
   const double d = scene.small_diameter;
-  StiffnessInput in;
-  in.sweeps = totals.per_step(totals.sweeps);
-  in.step = scene.step;
-  in.mass = scene.density * std::numbers::pi / 4 * d * d;
-  in.diameter = d;
   const auto base_pressure = scene.geometry->base_pressure;
-  in.base_pressure = base_pressure
-                         ? base_pressure(scene)
-                         : totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
-  in.layers = scene.depth / d;
-  in.gravity = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180);
-  return numerical_stiffness(in);
+  const double on_base = totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
+  return numerical_stiffness(
+      {.sweeps = totals.per_step(totals.sweeps),
+       .step = scene.step,
+       .mass = scene.density * std::numbers::pi / 4 * d * d,
+       .diameter = d,
+       .base_pressure = base_pressure ? base_pressure(scene) : on_base,
+       .layers = scene.depth / d,
+       .gravity = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180)});
 }
 
 Parameters to_parameters(const RunSummary& s)
@@ -217,7 +208,10 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
   text += line("grains", grains_in_words(scene, grains));
   text += line("flow", flow_in_words(s, scene));
   text += line("accuracy", solver_in_words(s.totals, scene));
-  text += line("overlap", overlap_in_words(s.totals, scene));
+  text += line("overlap",
+               fmt::format("{:.1e} d_S in the mean over pairs that overlap, {:.1e} d_S at most",
+                           s.totals.mean_overlap() / scene.small_diameter,
+                           s.totals.largest_overlap / scene.small_diameter));
   text += line("stiffness", stiffness_in_words(s.stiffness));
   const auto left_out = effects_left_out(scene);
   if (!left_out.empty()) text += line("not needed", left_out);
@@ -234,7 +228,7 @@ std::string next_steps(const std::string& output)
 
 NumericalStiffness numerical_stiffness(const StiffnessInput& in)
 {
-  constexpr double rigid = 1e4, sinking = 1e-3;
+  constexpr double sinking = 1e-3;
   // Both conditions ask for a least N/h^2.
   const double for_rigidity = rigid * in.base_pressure / in.mass;
   const double for_sinking = in.layers * in.layers * in.gravity / (2 * sinking * in.diameter);
