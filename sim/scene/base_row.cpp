@@ -28,6 +28,13 @@ double mean_spacing(const Scene& scene, double at_least)
   return scene.length / static_cast<double>(beads_at_spacing(scene, at_least));
 }
 
+/// Diameter of the smallest mobile grain that the keys allow, m.
+double smallest_grain(const Scene& scene)
+{
+  const bool only_large = !scene.large_grains && scene.phi_large == 1;
+  return (only_large ? scene.large_diameter : scene.small_diameter) * (1 - scene.spread / 2);
+}
+
 /// `count` values from -1/2 to 1/2, evenly spaced, in random order.
 std::vector<double> evenly_spaced(std::size_t count, RandomNumbers& random)
 {
@@ -87,12 +94,6 @@ double widest_gap(const Scene& scene)
   if (scene.lateral == Scene::Lateral::periodic) return between;
   const double to_wall = scene.base_spacing * (1 + scene.base_spacing_spread) / 2 - diameter / 2;
   return std::max(between, to_wall);
-}
-
-double smallest_grain(const Scene& scene)
-{
-  const bool only_large = !scene.large_grains && scene.phi_large == 1;
-  return (only_large ? scene.large_diameter : scene.small_diameter) * (1 - scene.spread / 2);
 }
 
 void resolve_base_row(Scene& scene, const KeyGiven& given)

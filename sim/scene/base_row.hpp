@@ -28,9 +28,6 @@ long beads_at_spacing(const Scene& scene, double spacing);
 /// Largest gap between neighbours, beads or a wall, that the keys allow, m; below 0 where all overlap.
 double widest_gap(const Scene& scene);
 
-/// Diameter of the smallest mobile grain that the keys allow, m.
-double smallest_grain(const Scene& scene);
-
 /// Adds the row, and sets `to.top` to the top of its highest bead.
 void add_base_row(Boundaries& to, const Scene& scene);
 

@@ -21,17 +21,6 @@ constexpr double usual_solid_fraction = 0.81;  // of a deposit, physics of the f
 constexpr int most_attempts = 20;
 constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
 
-/// The part that two rooms have in common.
-Room overlap_of(const Room& a, const Room& b)
-{
-  return {std::max(a.left, b.left), std::min(a.right, b.right)};
-}
-
-double width_of(const Room& room)
-{
-  return room.right - room.left;
-}
-
 /// A grain in the air.
 struct Falling {
   Species species;
@@ -57,11 +46,6 @@ double nominal_diameter(const Scene& scene, Species species)
   return species == Species::large ? scene.large_diameter : scene.small_diameter;
 }
 
-double largest_diameter(const Scene& scene, Species species)
-{
-  return nominal_diameter(scene, species) * (1 + scene.spread / 2);
-}
-
 /// A row of the lattice, m.
 struct Row {
   double left, bottom, spacing, height;
@@ -72,7 +56,7 @@ void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, c
                RandomNumbers& random)
 {
   const double nominal = nominal_diameter(scene, cell.species);
-  const double largest = largest_diameter(scene, cell.species);
+  const double largest = nominal * (1 + scene.spread / 2);
   const auto per_side = static_cast<double>(cell.per_side);
   const double slack = row.spacing / per_side - largest;
   for (long k = 0; k < cell.grains; ++k) {
@@ -88,23 +72,23 @@ void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, c
   }
 }
 
-/// Adds rows of `cells`, which are as wide as the grains of diameter `widest`, m, need.
-void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, double widest,
+/// Adds rows of `cells`, which are as wide as grains of the species `lattice` need.
+void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, Species lattice,
               RandomNumbers& random)
 {
-  const double row_height = loose * widest;
+  const double row_height = loose * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
   auto& y = shower.top;
   for (auto cell = cells.begin(); cell != cells.end(); y += row_height) {
     const auto below = room_at(scene, y), above = room_at(scene, y + row_height);
-    const auto room = overlap_of(below, above);
-    const double width = width_of(room);
+    const double left = std::max(below.left, above.left);
+    const double width = std::min(below.right, above.right) - left;
     const long per_row = static_cast<long>(width / row_height);
-    if (per_row < 1 && width_of(above) <= width_of(below))
+    if (per_row < 1 && above.right - above.left <= below.right - below.left)
       throw UsageError(
           fmt::format("the falling grains do not fit: the {} has no room for one at a height of "
                       "{:.4g} m; choose a wider one or fewer grains",
                       scene.geometry->name, y));
-    const Row row{room.left, y, width / static_cast<double>(per_row), row_height};
+    const Row row{left, y, width / static_cast<double>(per_row), row_height};
     for (long place = 0; place < per_row && cell != cells.end(); ++place, ++cell)
       fill_cell(shower, scene, row, place, *cell, random);
   }
@@ -134,7 +118,7 @@ Shower shower_of(const Scene& scene, long large, long small, double bottom, Rand
 {
   Shower shower{{}, bottom};
   const auto add = [&](Species lattice, const std::vector<Cell>& cells) {
-    add_rows(shower, scene, cells, largest_diameter(scene, lattice), random);
+    add_rows(shower, scene, cells, lattice, random);
   };
   const auto all_large = cells_of_one(Species::large, large);
   const auto all_small = cells_of_one(Species::small, small);
@@ -152,14 +136,6 @@ Shower shower_of(const Scene& scene, long large, long small, double bottom, Rand
   std::stable_partition(shower.grains.begin(), shower.grains.end(),
                         [](const Falling& grain) { return grain.species == Species::large; });
   return shower;
-}
-
-void add_boundaries(Packing& packing, const Scene& scene, const Boundaries& boundaries)
-{
-  for (std::size_t k = 0; k < boundaries.position.size(); ++k)
-    add_grain(packing, Species::boundary, boundaries.radius[k], scene.density,
-              boundaries.position[k]);
-  packing.world.walls = boundaries.walls;
 }
 
 /// Numbers of mobile grains.
@@ -199,8 +175,10 @@ Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
   for (const auto& grain : shower.grains)
     add_grain(packing, grain.species, grain.radius,
               grain.species == Species::large ? of_large_grains : scene.density, grain.at);
-  add_boundaries(packing, scene, boundaries);
-
+  for (std::size_t k = 0; k < boundaries.position.size(); ++k)
+    add_grain(packing, Species::boundary, boundaries.radius[k], scene.density,
+              boundaries.position[k]);
+  world.walls = boundaries.walls;
   world.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
   set_conditions(world, scene);
   return packing;

@@ -77,19 +77,22 @@ void add_bead_base(Boundaries& to, const Scene& scene, const std::vector<double>
   to.top = y + bead_radius(scene);
 }
 
-void add_base(Boundaries& to, const Scene& scene)
-{
-  if (scene.base == Scene::Base::wall)
-    to.walls.push_back({{0, 0}, {0, 1}});
-  else
-    add_base_row(to, scene);
-}
-
 void add_side_walls(Boundaries& to, const Scene& scene)
 {
   if (scene.lateral != Scene::Lateral::walls) return;
   to.walls.push_back({{0, 0}, {1, 0}});
   to.walls.push_back({{scene.length, 0}, {-1, 0}});
+}
+
+Boundaries base_and_sides(const Scene& scene)
+{
+  Boundaries all;
+  if (scene.base == Scene::Base::wall)
+    all.walls.push_back({{0, 0}, {0, 1}});
+  else
+    add_base_row(all, scene);
+  add_side_walls(all, scene);
+  return all;
 }
 
 BoundaryBody body_of_beads(const Grains& grains)

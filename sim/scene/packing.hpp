@@ -41,11 +41,13 @@ std::vector<double> row_of_beads(const Scene& scene);
 
 /// A base of beads at `x`, m.
 void add_bead_base(Boundaries& to, const Scene& scene, const std::vector<double>& x);
-/// A row of beads along the whole cell, or a straight wall, as Scene::base says.
-void add_base(Boundaries& to, const Scene& scene);
 
 /// Walls at both ends of the cell, where Scene::lateral says so.
 void add_side_walls(Boundaries& to, const Scene& scene);
+
+/// A base along the whole cell (a row of beads, or a straight wall, as Scene::base says), and walls at
+/// both ends as above.
+Boundaries base_and_sides(const Scene& scene);
 
 /// All boundary grains of `grains`, which are its last rows, as one body at rest.
 BoundaryBody body_of_beads(const Grains& grains);

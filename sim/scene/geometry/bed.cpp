@@ -8,14 +8,6 @@
 namespace grseg {
 namespace {
 
-Boundaries bed_boundaries(const Scene& scene)
-{
-  Boundaries all;
-  add_base(all, scene);
-  add_side_walls(all, scene);
-  return all;
-}
-
 std::vector<BoundaryBody> shaken_base(const Scene& scene, const Grains& grains)
 {
   if (scene.shake_amplitude == 0) return {};
@@ -30,7 +22,7 @@ std::vector<BoundaryBody> shaken_base(const Scene& scene, const Grains& grains)
 const Geometry bed_geometry{.name = "bed",
                             .help = "on its base",
                             .shapes_base = true,
-                            .boundaries = bed_boundaries,
+                            .boundaries = base_and_sides,
                             .bodies = shaken_base};
 
 }  // namespace grseg

@@ -18,9 +18,7 @@ void resolve_column(Scene& scene, const KeyGiven&)
 
 Boundaries column_boundaries(const Scene& scene)
 {
-  Boundaries all;
-  add_base(all, scene);
-  add_side_walls(all, scene);
+  auto all = base_and_sides(scene);
   all.walls.push_back({{scene.column_width, 0}, {-1, 0}});  // the gate
   return all;
 }

@@ -46,13 +46,6 @@ void resolve_shear_cell(Scene& scene, const KeyGiven& given)
   if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
 }
 
-Boundaries lower_plate(const Scene& scene)
-{
-  Boundaries all;
-  add_base(all, scene);
-  return all;
-}
-
 Simulation begin_to_shear(const Simulation& deposited, const Scene& scene)
 {
   auto packing = packing_of(deposited);
@@ -72,22 +65,18 @@ std::vector<BoundaryBody> upper_plate(const Scene& scene, const Grains& grains)
   return {plate};
 }
 
-double pressure_of_plate(const Scene& scene)
-{
-  return scene.plate_pressure;
-}
-
 }  // namespace
 
-const Geometry shear_geometry{.name = "shear",
-                              .help = "under a plate, without gravity",
-                              .resolve = resolve_shear_cell,
-                              .boundaries = lower_plate,
-                              .release = begin_to_shear,
-                              .keeps_grains = false,
-                              .has_free_body = true,
-                              .bodies = upper_plate,
-                              .has_gravity = false,
-                              .base_pressure = pressure_of_plate};
+const Geometry shear_geometry{
+    .name = "shear",
+    .help = "under a plate, without gravity",
+    .resolve = resolve_shear_cell,
+    .boundaries = base_and_sides,
+    .release = begin_to_shear,
+    .keeps_grains = false,
+    .has_free_body = true,
+    .bodies = upper_plate,
+    .has_gravity = false,
+    .base_pressure = [](const Scene& scene) { return scene.plate_pressure; }};
 
 }  // namespace grseg

@@ -35,11 +35,6 @@ Words<std::string> accuracy_words()
   return words;
 }
 
-Words<Precision> precision_words()
-{
-  return {{"mixed", Precision::mixed}, {"double", Precision::doubles}};
-}
-
 template <class T>
 auto of_solver(T SolverSettings::*member)
 {
@@ -202,7 +197,8 @@ std::vector<SceneKey> run_keys()
                      "bed is soft")},
     {"max-sweeps", "", whole_number(of_solver(&SolverSettings::max_sweeps), 1, most), flow, yes,
      set_by_accuracy("largest number of sweeps per step")},
-    {"precision", "", choice(of_solver(&SolverSettings::precision), precision_words()), flow, yes,
+    {"precision", "", choice(of_solver(&SolverSettings::precision), Words<Precision>{
+         {"mixed", Precision::mixed}, {"double", Precision::doubles}}), flow, yes,
      set_by_accuracy("precision of the sweeps: mixed relaxes contacts in single precision")},
     {"acceleration", "on", on_or_off(of_solver(&SolverSettings::acceleration)), flow, yes,
      "extrapolation of sweeps (Nesterov)"},
@@ -215,14 +211,6 @@ std::vector<SceneKey> run_keys()
 }
 // clang-format on
 
-std::vector<SceneKey> all_keys()
-{
-  std::vector<SceneKey> all;
-  for (const auto& group : {bed_keys(), flow_keys(), boundary_keys(), run_keys()})
-    all.insert(all.end(), group.begin(), group.end());
-  return all;
-}
-
 }  // namespace
 
 std::string SceneKey::with_unit(const std::string& text) const
@@ -232,7 +220,12 @@ std::string SceneKey::with_unit(const std::string& text) const
 
 const std::vector<SceneKey>& scene_keys()
 {
-  static const auto keys = all_keys();
+  static const auto keys = [] {
+    std::vector<SceneKey> all;
+    for (const auto& group : {bed_keys(), flow_keys(), boundary_keys(), run_keys()})
+      all.insert(all.end(), group.begin(), group.end());
+    return all;
+  }();
   return keys;
 }
 
