@@ -13,18 +13,18 @@ namespace grseg {
 ///
 ///   grains 205, sizes 203, crc32 0a1b2c3d, seed 1, flow 9f8e7d6c
 ///
-/// A run, its continuation and what begins from a checkpoint of it have one bed.
+/// A run, its continuation and a run from a checkpoint of it have one bed.
 struct Bed {
   /// "grains 205, sizes 203, crc32 0a1b2c3d": the rows of the file, how many radii differ, and the
   /// crc32 of the radii (8 bytes each, little endian) and, after them, the ids (4 bytes).
   std::string grains;
-  /// More than half of the radii differ, so that no other seed has them.
+  /// True where more than half of the radii differ, so that no other seed has them.
   bool varied = false;
-  /// Other parts of the run may list other grains.
+  /// True where other parts of the run may list other grains.
   bool come_and_go = false;
   std::string seed;  ///< of the scene; "" where the run states none
-  /// crc32 of all that acts on the motion from the deposition on, of the scene and of options that
-  /// restarts were given; "" where the run does not state its scene.
+  /// crc32 of the keys of the scene, and options of its restarts, that act on the motion from the
+  /// deposition on; "" where the run does not state its scene.
   std::string flow;
 
   std::string text() const;

@@ -23,8 +23,8 @@ struct FrameRange {
   /// Adds --begin --end --stride.
   void add_to(po::options_description& options);
 
-  /// Their numbers in the file, at least one. UsageError where the stride is below 1, RunError
-  /// where no frame lies between begin and end.
+  /// Numbers of these frames in the file, at least one. UsageError where the stride is below 1,
+  /// RunError where no frame lies between begin and end.
   std::vector<std::size_t> frames_of(const TrajectoryReader& run) const;
 };
 

@@ -25,8 +25,8 @@ struct OutputOptions {
   bool is_standard_output() const { return path.empty() || path == "-"; }
   /// Adds --output, with `help`, and --overwrite.
   void add_to(po::options_description& options, const char* help = "instead of standard output");
-  /// Before work begins: UsageError where the file is one of the inputs that `values` name, a
-  /// folder, or exists and --overwrite is not given. Devices and pipes are written to.
+  /// Checks the file before work begins: UsageError where it is one of the inputs that `values`
+  /// name, a folder, or exists and --overwrite is not given. Devices and pipes are written to.
   void check(const po::variables_map& values) const;
 };
 
@@ -48,7 +48,8 @@ struct TableOptions : OutputOptions {
 /// `publish`; without that it is removed.
 class Output {
  public:
-  /// UsageError where `path` cannot be what is made of `inputs` (check_output()).
+  /// UsageError where `path` may not be an output of a program with these `inputs`
+  /// (check_output()).
   Output(std::string path, bool overwrite, const std::vector<std::string>& inputs);
 
   const std::string& temporary() const { return temporary_.path(); }
@@ -62,8 +63,9 @@ class Output {
   RemoveAtEnd temporary_;
 };
 
-/// Writes `text` to where `output` says, whole or not at all; devices and pipes are written to
-/// directly. RunError on failure, and where a file has appeared that may not be replaced.
+/// Writes `text` to the place that `output` names, whole or not at all; devices and pipes are
+/// written to directly. RunError on failure, and where a file has appeared that may not be
+/// replaced.
 void write_whole(const OutputOptions& output, std::string_view text);
 
 /// Writes the table `text` likewise. Where the short form is wanted it goes to standard output,
@@ -72,12 +74,12 @@ void write_whole(const OutputOptions& output, std::string_view text);
 void write_table(const TableOptions& output, const std::string& text,
                  const std::string& short_text = "");
 
-/// Text of a table that goes to its output while the table is made, so that some megabytes of its rows
-/// are in memory. A file appears whole or not at all; what standard output has of a table that failed
-/// lacks the line that ends it. Gives the same bytes as Table::to_text.
+/// A table that is written while it is made, so that only some megabytes of its rows are in memory.
+/// A file appears whole or not at all; a table that failed on standard output lacks the line that
+/// ends it. It has the same bytes as Table::to_text.
 class GrowingTable {
  public:
-  /// To where `output` says, which must not be a device.
+  /// The place that `output` names must not be a device.
   explicit GrowingTable(OutputOptions output);
   ~GrowingTable();
 

@@ -16,8 +16,8 @@ struct Work {
   int digits = 0;  // behind the decimal point
 };
 
-/// "123 of 400 frames, 35/s, 0:08 left"; without rate and time left where nothing is done yet or
-/// no time has passed, without what depends on the total where that is not known. `seconds` since
+/// "123 of 400 frames, 35/s, 0:08 left". Rate and time left are missing where nothing is done yet
+/// or no time has passed, and the parts that need the total where it is unknown. `seconds` since
 /// the work began.
 std::string progress_text(double done, const Work& work, double seconds);
 
@@ -37,9 +37,9 @@ class ProgressBar {
   /// Clears the line.
   ~ProgressBar() { clear(); }
 
-  /// Work that turns out to be another; its time begins now.
+  /// Replaces the work by another; its time begins now.
   void begin(Work work);
-  /// So much is done so far. Not by several threads at once.
+  /// Shows that `done` of the things are done. Not by several threads at once.
   void show(double done);
   /// Prints a stage of the work that has no number, such as "depositing the bed", at once and on a
   /// terminal only.
@@ -58,8 +58,8 @@ class ProgressBar {
   double next_ = 0;  // s since then, at which something is shown again
 };
 
-/// Tells on a terminal what is run next: "next: grseg-fit stress.tsv". Nothing in a file, in a pipe
-/// or with `quiet`.
+/// Suggests the next command on a terminal: "next: grseg-fit stress.tsv". Prints nothing in a file,
+/// in a pipe or with `quiet`.
 void say_next(const std::string& command, bool quiet);
 
 }  // namespace grseg

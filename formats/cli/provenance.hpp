@@ -12,15 +12,15 @@
 /// Where a table comes from: the "# key: value" lines that every table begins with.
 ///
 ///   program   the tool that made the table, and its version
-///   preset    what --preset was given; only of tools that have presets
+///   preset    value of --preset; only of tools that have presets
 ///   history   one line per command that led here, the oldest first, this tool's own last
 ///   input     digest of the content of each run the table was made of
-///   bed       which grains these are, by what seed and under what flow (bed.hpp); behind each input
-///   verified  "all", or what of the inputs could not be verified
-///   incomplete  which run had not ended
-///   undecided   a check of an import that could not be told from the archive: "check: why"
-///   waived      a check of an import that had failed or was undecided, and was accepted: likewise
-///   doubt       what limits the conclusions from several tables
+///   bed       grains, seed and flow of a run (bed.hpp); one after each input
+///   verified  "all", or the part of the inputs that could not be verified
+///   incomplete  a run that had not ended
+///   undecided   a check of an import that the archive cannot decide: "check: why"
+///   waived      a check of an import that failed or was undecided, and was accepted: likewise
+///   doubt       a limit to conclusions from several tables
 namespace grseg {
 
 using HeaderLine = std::pair<std::string, std::string>;
@@ -41,7 +41,7 @@ std::vector<std::string> header_values(const std::vector<Table>& tables, const s
 /// The first line `key` of a table, or `otherwise` where there is none.
 std::string header_or(const Table& table, const std::string& key, const std::string& otherwise);
 
-/// The lines that say how a table was made (preset and settings), rather than of what.
+/// The lines that say how a table was made (preset and settings), not from which data.
 Header settings_of(const Table& table);
 
 /// True where two values of such a line mean the same: their words are equal, or numbers that agree up
@@ -65,8 +65,8 @@ struct TrustOption {
   Verify verify() const { return trust ? Verify::no : Verify::yes; }
 };
 
-/// The header lines of what was made of `run`: `verified`, what of it was compared with digests,
-/// `incomplete` where the run had not ended, and of an import `undecided` and `waived`.
+/// Header lines of a result made from `run`: `verified`; `incomplete` where the run had not ended;
+/// for an import `undecided` and `waived`.
 Header verification_lines(const TrajectoryReader& run);
 
 }  // namespace grseg

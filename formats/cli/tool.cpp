@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/tool.hpp"
 
+#include "citation.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
-
-#include "citation.hpp"
 
 #include <fmt/format.h>
 
@@ -21,42 +20,25 @@ namespace {
 constexpr Choice<const char * PresetOption::*> preset_names[] = {
     {"paper", &PresetOption::paper}, {"rigorous", &PresetOption::rigorous}};
 
-std::vector<std::string> names_of(const po::options_description& options)
-{
-  std::vector<std::string> names;
-  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
-  return names;
-}
-
-/// Options and values that the preset sets because they are not given explicitly.
-std::vector<std::pair<std::string, std::string>> preset_values(const ToolInfo& info,
-                                                               const po::variables_map& given)
-{
-  const auto name = preset_of(given);
-  if (name == "none") return {};
-  const auto value_of = choose(name, "preset", preset_names);
-  std::vector<std::pair<std::string, std::string>> values;
-  for (const auto& row : info.presets) {
-    const std::string value = row.*value_of;
-    if (!value.empty() && (!given.contains(row.option) || given[row.option].defaulted()))
-      values.emplace_back(row.option, value);
-  }
-  return values;
-}
-
-/// Adds to `values` what the preset sets, as defaults.
+/// Adds to `values`, as defaults, what the preset sets and is not given explicitly.
 void apply_preset(const ToolInfo& info, const po::options_description& options,
                   po::variables_map& values)
 {
-  const auto preset = preset_values(info, values);
-  std::vector<std::string> words;
-  words.reserve(preset.size());
-  for (const auto& [option, value] : preset) words.push_back(fmt::format("--{}={}", option, value));
+  std::vector<std::string> set, words;
+  if (const auto name = preset_of(values); name != "none") {
+    const auto value_of = choose(name, "preset", preset_names);
+    for (const auto& row : info.presets) {
+      const std::string value = row.*value_of;
+      if (value.empty() || (values.contains(row.option) && !values[row.option].defaulted()))
+        continue;
+      set.emplace_back(row.option);
+      words.push_back(fmt::format("--{}={}", row.option, value));
+    }
+  }
   po::store(po::command_line_parser(words).options(options).run(), values);
   po::notify(values);
   std::map<std::string, po::variable_value>& all = values;
-  for (const auto& [option, value] : preset)
-    all[option] = po::variable_value(all[option].value(), true);
+  for (const auto& option : set) all[option] = po::variable_value(all[option].value(), true);
 }
 
 std::string help_of(const std::span<const PresetOption> presets)
@@ -95,7 +77,9 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
     apply_preset(info, all, values);
   } catch (const po::unknown_option& unknown) {
     const auto& option = unknown.get_option_name();
-    const auto suggestion = nearest(option, names_of(options));
+    std::vector<std::string> names;
+    for (const auto& known : options.options()) names.push_back("--" + known->long_name());
+    const auto suggestion = nearest(option, names);
     throw UsageError(
         fmt::format("unknown option {}{}; --help lists all", option,
                     suggestion.empty() ? "" : fmt::format(", did you mean {}?", suggestion)));

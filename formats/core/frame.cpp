@@ -60,17 +60,6 @@ template double mean_density<3>(const Grains&, std::optional<Species>);
 template bool have_one_density<2>(const Grains&);
 template bool have_one_density<3>(const Grains&);
 
-template <int D>
-std::size_t number_present(const Frame<D>& frame)
-{
-  std::size_t number = 0;
-  for (std::size_t g = 0; g < frame.position.size(); ++g) number += is_present(frame, g) ? 1 : 0;
-  return number;
-}
-
-template std::size_t number_present(const Frame<2>&);
-template std::size_t number_present(const Frame<3>&);
-
 /// A sum over absent grains of random numbers that belong to their rows (SplitMix64).
 template <int D>
 std::uint64_t which_are_absent(const Frame<D>& frame)

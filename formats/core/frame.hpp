@@ -137,9 +137,14 @@ bool is_present(const Frame<D>& frame, std::size_t g)
   return !std::isnan(frame.position[g].y());
 }
 
-/// How many grains are there in this frame.
+/// Number of grains that are present in this frame.
 template <int D>
-std::size_t number_present(const Frame<D>& frame);
+std::size_t number_present(const Frame<D>& frame)
+{
+  std::size_t number = 0;
+  for (std::size_t g = 0; g < frame.position.size(); ++g) number += is_present(frame, g) ? 1 : 0;
+  return number;
+}
 
 /// True where grain g belongs to the flow and is present in this frame.
 template <int D>

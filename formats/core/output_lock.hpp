@@ -15,8 +15,8 @@ int lock_file(int file);
 /// releases the lock of a process that dies; the file that it leaves behind hinders nobody.
 ///
 /// Where the file system has no locks, PATH.lock itself is the lock: it names the computer, the
-/// process and when that began. It is taken over where that process has died on this computer; one
-/// of another computer must be removed by hand.
+/// process and the time at which that began. It is taken over where that process has died on this
+/// computer; a lock from another computer must be removed by hand.
 class OutputLock {
  public:
   /// UsageError naming the process that writes `path`; RunError where PATH.lock cannot be created.

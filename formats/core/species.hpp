@@ -63,8 +63,8 @@ struct Partners {
 template <int D>
 Partners partners(const Grains& grains, const Frame<D>& frame, std::size_t contact);
 
-/// The kinds of contacts of two species: two small grains, a large and a small one, two large ones, or a small
-/// or large grain and the base (boundary grains and straight walls).
+/// Kinds of contacts in a mixture of two species: two small grains, a large and a small one, two
+/// large ones, or a small or large grain and the base (boundary grains and straight walls).
 enum class PairType { SS, LS, LL, Sb, Lb };
 constexpr std::size_t pair_types = 5;
 constexpr std::array<const char*, pair_types> pair_type_names{"SS", "LS", "LL", "Sb", "Lb"};

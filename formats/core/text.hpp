@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-/// Text of which nobody knows who wrote it (names of files, words and parameters inside them), made
-/// fit for a terminal or for a line of a table.
+/// Text from unknown writers (names of files, words and parameters inside them), made fit for a
+/// terminal or for a line of a table.
 namespace grseg {
 
-/// The text with every byte as \xNN that is not a printable character of UTF-8: control characters
-/// (also newline, tab and those from U+0080 on) and what is not UTF-8. It is then one line.
+/// The text with bytes as \xNN where they are no printable character of UTF-8: control characters
+/// (also newline, tab and U+0080 to U+009F) and anything that is not UTF-8. It is then one line.
 std::string printable(std::string_view text);
 
 /// Each line of the text made printable; line ends remain.

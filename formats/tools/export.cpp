@@ -71,11 +71,6 @@ void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& f
   writer.publish();
 }
 
-bool slope_turns(const TrajectoryReader& run)
-{
-  return with_dimension(run.dimension(), [&](auto d) { return run.gravity<d>().turns(); });
-}
-
 void export_run(const Settings& s, const po::variables_map& values)
 {
   const TrajectoryReader run(single_input(values, "export one at a time"), s.trust.verify());
@@ -87,7 +82,7 @@ void export_run(const Settings& s, const po::variables_map& values)
   with_dimension(run.dimension(), [&](auto d) { write_frames<d>(run, frames, s, *writer); });
   const auto again = writer->import_command();
   if (s.quiet || again.empty()) return;
-  if (slope_turns(run))
+  if (with_dimension(run.dimension(), [&](auto d) { return run.gravity<d>().turns(); }))
     fmt::print(stderr,
                "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",
                info.name);

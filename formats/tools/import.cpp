@@ -28,8 +28,8 @@ std::string examples()
                      notes);
 }
 
-/// The command line as typed, without the files that got new names, followed by the proposed
-/// answers.
+/// The command line as typed, without the files that the proposed answers name by their options,
+/// followed by these answers.
 std::string proposed_command(int argc, char** argv, const ImportSettings& settings,
                              const OpenQuestions& open)
 {
@@ -72,9 +72,9 @@ int main(int argc, char** argv)
         say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(settings.output)),
                  settings.quiet);
     } catch (const OpenQuestions& open) {
-      throw UsageError(fmt::format(
-          "{}\nCheck the proposed answers, and fill in the words in capitals:\n  {}",
-          open.what(), proposed_command(argc, argv, settings, open)));
+      throw UsageError(
+          fmt::format("{}\nCheck the proposed answers, and fill in the words in capitals:\n  {}",
+                      open.what(), proposed_command(argc, argv, settings, open)));
     }
   });
 }

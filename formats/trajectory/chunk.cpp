@@ -65,11 +65,6 @@ Chunk::Chunk(std::shared_ptr<const ChunkLayout> layout, std::size_t number, Byte
 {
 }
 
-bool Chunk::is_deflated() const
-{
-  return (filters_left_out_ & (layout_->shuffled ? 2U : 1U)) == 0;
-}
-
 void Chunk::inflate() const
 {
   const std::size_t bytes = layout_->chunk_bytes();

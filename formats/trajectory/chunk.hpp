@@ -39,7 +39,7 @@ class Chunk {
   void copy(std::size_t first, std::size_t count, void* out) const;
 
  private:
-  bool is_deflated() const;
+  bool is_deflated() const { return (filters_left_out_ & (layout_->shuffled ? 2U : 1U)) == 0; }
   bool is_shuffled() const { return layout_->shuffled && (filters_left_out_ & 1U) == 0; }
   void inflate() const;
 

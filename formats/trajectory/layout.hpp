@@ -12,7 +12,8 @@
 #include <string_view>
 #include <vector>
 
-/// The table of formats/README.md: what a trajectory file is created, written, read and checked by.
+/// The table of formats/README.md, by which a trajectory file is created, written, read and
+/// checked.
 namespace grseg {
 
 /// Numbers of a dataset; `real` is float64, or float32 where the run is stored so.
@@ -69,7 +70,7 @@ struct LayoutSizes {
 };
 std::vector<hsize_t> shape_of(std::string_view letters, const LayoutSizes& sizes);
 
-/// The row of a path that the table has, and of a field that for_each_array() has.
+/// Row of a path, which must be in the table, or of a field of for_each_array().
 const LayoutRow& row_at(std::string_view path);
 const LayoutRow& row_of(Field field);
 
@@ -93,7 +94,7 @@ void write_parameter(hid_t file, const std::string& name, const std::vector<doub
                      bool live);
 void write_parameter(hid_t file, const std::string& name, const std::string& text);
 
-/// Reads and checks what an open trajectory file holds beside the contents of its frames. Throws as
+/// Reads and checks an open trajectory file, except the contents of its frames. Throws as
 /// TrajectoryReader does.
 StoredRun read_stored_run(hid_t file, const std::string& path);
 

@@ -18,100 +18,15 @@ namespace grseg {
 
 using namespace hdf5;
 
-/// The datasets with rows for each frame, whose types and shapes have been checked.
-struct TrajectoryReader::Datasets {
-  Datasets(File its_file, const StoredRun& of_run);
-
-  CheckedDataset open(const std::string& at, H5T_class_t kind, int rank) const
-  {
-    return {file, at, kind, rank, run.path};
-  }
-  const RowReader& rows_of(Field field) const { return rows[static_cast<std::size_t>(field)]; }
-  /// Reads a field of a frame, or of its contacts, as stored. Compressed rows are appended to
-  /// `packed`.
-  template <class T>
-  void load(Field field, std::size_t frame, std::vector<T>& out,
-            std::vector<PackedRows>& packed) const;
-  std::vector<double> observable(const std::string& name) const;
-  std::string damage_of_observables() const;
-
-  File file;
-  const StoredRun& run;
-  std::array<RowReader, number_of_fields> rows;  // by Field
-};
-
-TrajectoryReader::Datasets::Datasets(File its_file, const StoredRun& of_run)
-    : file(std::move(its_file)), run(of_run)
-{
-  const auto& description = run.description;
-  const LayoutSizes sizes{run.size(), run.offset.back(), description.grains.size(), 0,
-                          description.box.dimension};
-  for_each_array(Frame<2>(), [&](Field field, const auto&) {
-    if (field == Field::force && !description.has_force) return;
-    const auto& row = row_of(field);
-    const auto shape = shape_of(row.shape, sizes);
-    auto dataset = open(row.path, row.type == Number::real ? H5T_FLOAT : H5T_INTEGER,
-                        static_cast<int>(shape.size()));
-    for (std::size_t axis = 0; axis < shape.size(); ++axis)
-      dataset.require(axis, shape[axis], axis == 0);
-    rows[static_cast<std::size_t>(field)] = RowReader(std::move(dataset));
-  });
-}
-
-template <class T>
-void TrajectoryReader::Datasets::load(Field field, std::size_t frame, std::vector<T>& out,
-                                      std::vector<PackedRows>& packed) const
-{
-  const auto grains = run.description.grains.size();
-  if (!is_of_contacts(field)) {
-    out.resize(grains);
-    return rows_of(field).load(frame, 1, out.data(), packed);
-  }
-  const hsize_t begin = run.offset[frame], count = run.offset[frame + 1] - begin;
-  if (count > 64 * grains + 1024)
-    run.fail(
-        fmt::format("frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged",
-                    frame, count, grains));
-  out.resize(count);
-  if (count > 0) rows_of(field).load(begin, count, out.data(), packed);
-}
-
-std::vector<double> TrajectoryReader::Datasets::observable(const std::string& name) const
-{
-  const auto dataset = open("/observables/" + name + "/value", H5T_FLOAT, 1);
-  dataset.require(0, run.size(), true);
-  std::vector<double> values(run.size());
-  dataset.read_rows(H5T_NATIVE_DOUBLE, 0, run.size(), values.data());
-  return values;
-}
-
 namespace {
 
 constexpr TrajectoryReader::Fields whole{.velocity = true, .contacts = true, .force = true};
-
-bool is_finite(double value)
-{
-  return std::isfinite(value);
-}
-bool is_nan(double value)
-{
-  return std::isnan(value);
-}
 
 template <class T>
 std::span<const double> numbers_of(const std::vector<T>& values)
 {
   return {reinterpret_cast<const double*>(values.data()),
           values.size() * sizeof(T) / sizeof(double)};
-}
-
-void check_finite(const StoredRun& run, std::size_t index, Field field,
-                  std::span<const double> numbers)
-{
-  const auto wrong = std::find_if_not(numbers.begin(), numbers.end(), is_finite);
-  if (wrong != numbers.end())
-    run.fail(fmt::format("{} is not a finite number in frame {}, entry {}; the frame is damaged",
-                         row_of(field).path, index, wrong - numbers.begin()));
 }
 
 template <int D>
@@ -124,7 +39,8 @@ void check_presence(const StoredRun& run, std::size_t index, const Frame<D>& fra
     for (std::size_t g = 0; g < values.size(); ++g) {
       const auto own = numbers.subspan(g * each, each);
       const bool present = is_present(frame, g);
-      if (!std::all_of(own.begin(), own.end(), present ? is_finite : is_nan))
+      if (!std::all_of(own.begin(), own.end(),
+                       [present](double x) { return present ? std::isfinite(x) : std::isnan(x); }))
         run.fail(fmt::format(
             "{} of grain {} in frame {} is {}; the frame is damaged", row_of(field).path, g, index,
             present ? "not finite"
@@ -146,8 +62,13 @@ void check_frame(const StoredRun& run, std::size_t index, const Frame<D>& frame)
 {
   const bool come_and_go = run.description.grains_come_and_go;
   for_each_array(frame, [&](Field field, const auto& values) {
-    if (holds_reals(field) && (is_of_contacts(field) || !come_and_go))
-      check_finite(run, index, field, numbers_of(values));
+    if (!holds_reals(field) || (come_and_go && !is_of_contacts(field))) return;
+    const auto numbers = numbers_of(values);
+    const auto wrong =
+        std::find_if(numbers.begin(), numbers.end(), [](double x) { return !std::isfinite(x); });
+    if (wrong != numbers.end())
+      run.fail(fmt::format("{} is not a finite number in frame {}, entry {}; the frame is damaged",
+                           row_of(field).path, index, wrong - numbers.begin()));
   });
   const auto& contacts = frame.contacts;
   const auto grain_count = static_cast<std::int64_t>(run.description.grains.size());
@@ -244,18 +165,77 @@ std::optional<Field> changed_field(const StoredRun& run, bool float32, std::size
 
 }  // namespace
 
-std::string TrajectoryReader::Datasets::damage_of_observables() const
-{
-  std::vector<std::vector<double>> all;
-  for (const auto& known : run.description.observables) all.push_back(observable(known.name));
-  std::vector<double> of_frame(all.size());
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    for (std::size_t q = 0; q < all.size(); ++q) of_frame[q] = all[q][k];
-    if (!matches(run, k, Field::observables, field_digest(k, of_frame)))
-      return changed(Field::observables, k);
+/// The datasets with rows for each frame, whose types and shapes have been checked.
+struct TrajectoryReader::Datasets {
+  Datasets(File its_file, const StoredRun& of_run) : file(std::move(its_file)), run(of_run)
+  {
+    const auto& description = run.description;
+    const LayoutSizes sizes{run.size(), run.offset.back(), description.grains.size(), 0,
+                            description.box.dimension};
+    for_each_array(Frame<2>(), [&](Field field, const auto&) {
+      if (field == Field::force && !description.has_force) return;
+      const auto& row = row_of(field);
+      const auto shape = shape_of(row.shape, sizes);
+      auto dataset = open(row.path, row.type == Number::real ? H5T_FLOAT : H5T_INTEGER,
+                          static_cast<int>(shape.size()));
+      for (std::size_t axis = 0; axis < shape.size(); ++axis)
+        dataset.require(axis, shape[axis], axis == 0);
+      rows[static_cast<std::size_t>(field)] = RowReader(std::move(dataset));
+    });
   }
-  return {};
-}
+
+  CheckedDataset open(const std::string& at, H5T_class_t kind, int rank) const
+  {
+    return {file, at, kind, rank, run.path};
+  }
+  const RowReader& rows_of(Field field) const { return rows[static_cast<std::size_t>(field)]; }
+
+  /// Reads a field of a frame, or of its contacts, as stored. Compressed rows are appended to
+  /// `packed`.
+  template <class T>
+  void load(Field field, std::size_t frame, std::vector<T>& out,
+            std::vector<PackedRows>& packed) const
+  {
+    const auto grains = run.description.grains.size();
+    if (!is_of_contacts(field)) {
+      out.resize(grains);
+      return rows_of(field).load(frame, 1, out.data(), packed);
+    }
+    const hsize_t begin = run.offset[frame], count = run.offset[frame + 1] - begin;
+    if (count > 64 * grains + 1024)
+      run.fail(fmt::format(
+          "frame {} claims {} contacts for {} grains; /grseg/contacts/offset is damaged", frame,
+          count, grains));
+    out.resize(count);
+    if (count > 0) rows_of(field).load(begin, count, out.data(), packed);
+  }
+
+  std::vector<double> observable(const std::string& name) const
+  {
+    const auto dataset = open("/observables/" + name + "/value", H5T_FLOAT, 1);
+    dataset.require(0, run.size(), true);
+    std::vector<double> values(run.size());
+    dataset.read_rows(H5T_NATIVE_DOUBLE, 0, run.size(), values.data());
+    return values;
+  }
+
+  std::string damage_of_observables() const
+  {
+    std::vector<std::vector<double>> all;
+    for (const auto& known : run.description.observables) all.push_back(observable(known.name));
+    std::vector<double> of_frame(all.size());
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      for (std::size_t q = 0; q < all.size(); ++q) of_frame[q] = all[q][k];
+      if (!matches(run, k, Field::observables, field_digest(k, of_frame)))
+        return changed(Field::observables, k);
+    }
+    return {};
+  }
+
+  File file;
+  const StoredRun& run;
+  std::array<RowReader, number_of_fields> rows;  // by Field
+};
 
 TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify) : verify_(verify)
 {

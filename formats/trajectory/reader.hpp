@@ -82,9 +82,8 @@ class TrajectoryReader {
   {
     read(index, frame, Fields{});
   }
-  /// The two halves of `read`: `load` uses HDF5, which knows no threads; `unpack`, which decompresses
-  /// and verifies what has been loaded to the same frame, does not, so that several threads can call
-  /// it at once.
+  /// The two halves of `read`. `load` uses HDF5, which knows no threads. `unpack` decompresses and
+  /// verifies the frame that was loaded, without HDF5, so that several threads can call it at once.
   template <int D>
   Packed load(std::size_t index, Frame<D>& frame, Fields fields) const;
   template <int D>

@@ -11,9 +11,9 @@
 namespace grseg {
 
 /// Reads rows of a dataset as double (H5T_FLOAT) or std::int32_t (H5T_INTEGER). HDF5 knows no
-/// threads and would decompress within its calls: of a dataset that is compressed the way grseg
-/// does, it reads the chunks as they are, and unpacking is left to the caller's threads. All other
-/// datasets HDF5 reads itself.
+/// threads and would decompress within its calls. So where a dataset is compressed as grseg does
+/// it, its chunks are read as they are, and unpacking is left to the caller's threads. HDF5 itself
+/// reads all other datasets.
 class RowReader {
  public:
   RowReader() = default;
@@ -22,8 +22,8 @@ class RowReader {
   const std::string& path() const { return dataset_.path(); }
   bool stores_float32() const { return dataset_.stores_float32(); }
 
-  /// Reads rows [first, first + count) to `data`, or appends to `packed` what is to be unpacked to
-  /// there. FormatError naming the dataset where they cannot be read.
+  /// Reads rows [first, first + count) to `data`; rows still to be unpacked to there are appended
+  /// to `packed`. FormatError naming the dataset where they cannot be read.
   void load(hsize_t first, hsize_t count, void* data, std::vector<PackedRows>& packed) const;
 
  private:

@@ -40,8 +40,8 @@ bool is_known_at_end(const std::string& parameter);
 /// Digest of box, grains, species, names and units of observables, and parameters.
 std::uint64_t static_digest(const RunDescription& run);
 
-/// Written when the file is closed: it vouches for the number of frames and for what is known only
-/// then. All zeros before.
+/// Seal, written when the file is closed: it covers the number of frames and everything that is
+/// known only then. All zeros before.
 struct Seal {
   std::uint64_t frames = 0, contacts = 0;
   std::uint64_t chain = 0;   // frame_digest of the last frame

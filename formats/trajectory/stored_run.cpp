@@ -51,7 +51,7 @@ class HeadReader {
     require_versions();
     read_offset();
     read_box();
-    read_parameters();
+    for (const auto& name : names_in(file_, "/parameters")) read_parameter(name);
     read_species();
     read_grains();
     read_times();
@@ -228,11 +228,6 @@ class HeadReader {
     open("/grseg/static_digest", H5T_INTEGER, 0).read_all(H5T_NATIVE_UINT64, &run_.static_digest);
     const auto seal = column<std::uint64_t>("/grseg/seal", run_.seal.size());
     std::copy(seal.begin(), seal.end(), run_.seal.begin());
-  }
-
-  void read_parameters()
-  {
-    for (const auto& name : names_in(file_, "/parameters")) read_parameter(name);
   }
 
   void read_parameter(const std::string& name)

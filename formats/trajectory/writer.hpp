@@ -17,7 +17,7 @@ class TrajectoryReader;
 struct StorageSettings {
   int compression = 0;   ///< deflate level; not while `live`
   bool float32 = false;  ///< halves the file; contact balances then close to 1e-6 only
-  /// A frame that has been appended is in the file: it survives a kill at any moment and can be read
+  /// Each appended frame is in the file at once: it survives a kill at any moment and can be read
   /// meanwhile (HDF5's SWMR mode). Otherwise a file can be read once it has been closed.
   bool live = false;
   std::size_t contact_chunk = 8192;  ///< contacts that are stored together
