@@ -25,8 +25,8 @@ void add(boost::crc_32_type& crc, const std::vector<T>& values)
   crc.process_bytes(values.data(), values.size() * sizeof(T));
 }
 
-/// Keys of a scene, and options of a restart, that leave every step as it is: how long a run lasts, what
-/// of it is stored, how and where.
+/// Keys of a scene, and options of a restart, that leave every step as it is: how long a run lasts,
+/// what of it is stored, how and where.
 constexpr std::string_view of_no_effect[] = {
     "duration", "frame-interval",   "burst",  "keep-deposition", "compression",
     "store",    "threads",          "isa",    "restart",         "checkpoint",

@@ -79,8 +79,8 @@ std::string source_of(const po::option_description& option)
                      takes_list(option) ? "before=${word%\"${word##*,}\"} " : "");
 }
 
-// Both shells know arrays, [[ ]] and ${x%%y}. zsh also takes the script from its fpath (#compdef), lists
-// descriptions, and knows how to add words itself.
+// Both shells know arrays, [[ ]] and ${x%%y}. zsh also takes the script from its fpath (#compdef),
+// lists descriptions, and knows how to add words itself.
 constexpr const char* script = R"(#compdef {0}
 # completion of {0} in bash and zsh, printed by {0} --completion {2}
 {1}()

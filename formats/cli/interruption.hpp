@@ -12,9 +12,9 @@ struct Interruption : ToolError {
   using ToolError::ToolError;
 };
 
-/// From here on signals that ask a program to end are remembered instead of ending it at once: SIGINT,
-/// SIGTERM, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU. Where the last four are ignored, as by nohup, they
-/// stay so.
+/// From this call on, signals that ask a program to end are remembered instead of ending it at
+/// once: SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU. Where the last four are ignored, as
+/// by nohup, they stay so.
 void listen_to_signals();
 
 /// True once a signal has arrived.

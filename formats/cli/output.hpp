@@ -85,7 +85,8 @@ class GrowingTable {
 
   /// True if `table` has so many rows that they should be written now.
   static bool is_large(const Table& table);
-  /// Writes the rows of `table`, and before the first ones its header and columns; removes the rows.
+  /// Writes the rows of `table`, and before the first ones its header and columns; removes the
+  /// rows.
   void add(Table& table);
   bool has_begun() const { return rows_ > 0; }
   /// Writes what is left and the line that ends the table.

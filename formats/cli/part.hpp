@@ -24,8 +24,8 @@ struct OutputPart {
   std::string path(const std::string& output, const std::string& extension) const;
 };
 
-/// --part K/N makes a part of the output, and the same command with --join N, where the files of all
-/// parts are there, the output itself, with the bytes that one process would have written.
+/// Options for making a table in parts. --part K/N makes one part of the output. The same command
+/// with --join N makes the output of all parts, with the bytes that one process would have written.
 struct PartOptions {
   std::optional<OutputPart> part;
   std::size_t join = 0;  // number of parts; 0: no joining

@@ -21,8 +21,8 @@ struct Work {
 /// the work began.
 std::string progress_text(double done, const Work& work, double seconds);
 
-/// Writes to standard error as far as it can: a terminal that is gone, or a log on a full disk, is no
-/// reason to stop.
+/// Writes to standard error as far as it can: a terminal that is gone, or a log on a full disk, is
+/// no reason to stop.
 void tell(std::string_view text);
 
 /// Shows progress on standard error: on a terminal in one line that is redrawn, in a file in a line

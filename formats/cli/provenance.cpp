@@ -78,9 +78,10 @@ Header settings_of(const Table& table)
   return settings;
 }
 
-// A difference of two times t in double precision is off by 2^-52 t: by less than this part of a window
-// for t up to four million windows. Other settings are products of two or three numbers. What was set
-// otherwise differs by a step of time or a digit that was typed, which is more.
+// Largest relative difference of equal settings. A difference of two times t in double precision is
+// off by 2^-52 t: by less than this part of a window for t up to four million windows. Other
+// settings are products of two or three numbers. Different settings differ by a step of time or a
+// typed digit, which is more.
 constexpr double setting_round_off = 1e-9;
 
 bool same_setting(const std::string& a, const std::string& b)

@@ -44,8 +44,8 @@ std::string header_or(const Table& table, const std::string& key, const std::str
 /// The lines that say how a table was made (preset and settings), not from which data.
 Header settings_of(const Table& table);
 
-/// True where two values of such a line mean the same: their words are equal, or numbers that agree up
-/// to round-off, as where one is 0.2 and the other 2.2 - 2.
+/// True where two values of such a line mean the same: their words are equal, or numbers that agree
+/// up to round-off, as where one is 0.2 and the other 2.2 - 2.
 bool same_setting(const std::string& a, const std::string& b);
 
 /// The tables that the command line names, "-" being standard input; none where it names none.

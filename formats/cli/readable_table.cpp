@@ -23,7 +23,8 @@ std::string rounded(const std::string& cell, int digits)
   return number && !whole ? fmt::format("{:.{}g}", *number, digits) : cell;
 }
 
-/// The lines of a table but its last, which ends it, each in cells; what is above the rows as it is.
+/// Lines of a table in cells, without the last one, which ends it; lines above the rows stay as
+/// they are.
 struct Cells {
   std::string head;
   std::vector<Line> lines;  // the first has the names of the columns

@@ -12,8 +12,8 @@ namespace grseg {
 
 inline constexpr std::size_t readable_width = 100;  // columns of letters
 
-/// Lines of one length as text: what is `left` to the left, else to the right, columns as wide as they
-/// must be.
+/// Lines of equally many cells as text, in columns as wide as their cells need: aligned to the left
+/// where `left` is true, else to the right.
 std::string aligned(const std::vector<std::vector<std::string>>& lines,
                     const std::function<bool(std::size_t column)>& left);
 

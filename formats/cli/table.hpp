@@ -41,8 +41,8 @@ class Table {
 
   /// From a file, or from standard input where `path` is "-". UsageError where it is missing,
   /// FormatError, naming the line, where it is not a table or not as it was written: its last line
-  /// must agree with all others, and may be missing only from tables made by hand, whose header then
-  /// says so under "verified".
+  /// must agree with all others, and may be missing only from tables made by hand, whose header
+  /// then says so under "verified".
   static Table read(const std::string& path);
   static Table parse(const std::string& text, const std::string& name);
 

@@ -86,7 +86,8 @@ bool is_bare(std::string_view word)
          word.find_first_not_of(harmless) == std::string_view::npos;
 }
 
-/// Inside $'...'. Three octal digits end by themselves, hexadecimal ones may run into the next letter.
+/// Inside $'...'. Three octal digits end by themselves, hexadecimal ones may run into the next
+/// letter.
 std::string escaped(char c)
 {
   if (c == '\'' || c == '\\') return {'\\', c};

@@ -80,12 +80,13 @@ Value choose(const std::string& word, const char* what, const Choice<Value> (&ch
   throw UsageError(unknown_word(what, word, words_of(choices)));
 }
 
-/// "%value%" or the like where `text` holds one, else "". Boost.ProgramOptions puts what was typed in
-/// the place of such words of its sentences, and never ends where that is again such a word.
+/// "%value%" or another placeholder of Boost.ProgramOptions in `text`, else "". Boost puts the
+/// typed text in the place of such words of its sentences, and never ends where that is again such
+/// a word.
 std::string placeholder_in(std::string_view text);
 
-/// The known word nearest to `word`, or "" where none differs in one letter of three or fewer; dashes
-/// before a word are no letters.
+/// The known word nearest to `word`, or "" where all differ in more than one letter of three.
+/// Dashes before a word do not count as letters.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 /// `word` as a shell's command line writes it, in printable characters: bare where every character
@@ -111,7 +112,7 @@ struct WordOption : boost::program_options::typed_value<T>, OptionWords {
   }
 };
 
-/// An option that takes one of `words`; by default what `place` holds, if there is a place and text.
+/// An option that takes one of `words`. Its default is the text at `place`, if there is any.
 inline auto* word_option(std::string* place, const std::vector<std::string>& words)
 {
   auto* option = new WordOption<std::string>(place, words);  // whoever takes it owns it

@@ -91,8 +91,8 @@ class RemoveAtEnd {
   If condition_;
 };
 
-/// Bytes that programs of this machine can still get (MemAvailable of /proc/meminfo); infinity where
-/// that is not known.
+/// Memory that programs of this machine can still get, bytes (MemAvailable of /proc/meminfo);
+/// infinity where it is unknown.
 double free_memory();
 
 }  // namespace grseg

@@ -12,8 +12,8 @@
 
 /// The data that simulator and analysis share, in D = 2 or 3 dimensions. Everything is in SI units.
 /// x points down the slope, y is normal to the base and points up, z goes across; the cell may be
-/// periodic along x and z. In two dimensions a density is in kg/m^2 and a stress in N/m, in three in
-/// kg/m^3 and Pa. The simulator knows two dimensions only.
+/// periodic along x and z. In two dimensions a density is in kg/m^2 and a stress in N/m, in three
+/// in kg/m^3 and Pa. The simulator knows two dimensions only.
 namespace grseg {
 
 template <int D>
@@ -70,13 +70,13 @@ double grain_volume(double radius)
     return 4 * std::numbers::pi / 3 * radius * radius * radius;
 }
 
-/// Mass of the mobile grains over their area or volume, kg/m^2 or kg/m^3; of one species where it is
-/// given. 0 without grains.
+/// Mass of the mobile grains over their area or volume, kg/m^2 or kg/m^3; of one species where it
+/// is given. 0 without grains.
 template <int D>
 double mean_density(const Grains& grains, std::optional<Species> species = std::nullopt);
 
-/// True where all mobile grains have one density, to the digits of archives (1e-5): shares of mass are
-/// then shares of area or volume.
+/// True where all mobile grains have one density, to the digits of archives (1e-5): shares of mass
+/// are then shares of area or volume.
 template <int D>
 bool have_one_density(const Grains& grains);
 

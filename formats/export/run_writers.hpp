@@ -9,8 +9,8 @@
 
 namespace grseg {
 
-/// Writes frames of a run for other programs. What is written appears whole when it is published, or
-/// not at all.
+/// Writes frames of a run for other programs. What is written appears whole when it is published,
+/// or not at all.
 class RunWriter {
  public:
   RunWriter() = default;
@@ -27,8 +27,8 @@ class RunWriter {
   virtual std::string import_command() const { return ""; }
 };
 
-// Each writes to `path`, which may not be of the run and is replaced with `overwrite` alone. `cell` is the
-// same for all frames.
+// Each function writes to `path`, which may not be the run itself and is replaced only with
+// `overwrite`. `cell` is the same for all frames.
 
 /// A pair of dumps as LAMMPS writes them (doc/src/dump.rst), blocks with ITEM: TIME and the frame's
 /// step as TIMESTEP:
@@ -54,13 +54,13 @@ std::unique_ptr<RunWriter> lammps_writer(const TrajectoryReader& run, const View
 std::unique_ptr<RunWriter> extxyz_writer(const TrajectoryReader& run, const ViewCell& cell,
                                          const std::string& path, bool overwrite);
 
-/// H5MD 1.1 for MDAnalysis' H5MDReader, which refuses two dimensions: vectors of discs padded by
-/// z = 0, the group /particles/trajectory, box/edges with one matrix per frame. The elements of
+/// H5MD 1.1 for MDAnalysis' H5MDReader, which refuses two dimensions: vectors of discs padded by z
+/// = 0, the group /particles/trajectory, box/edges with one matrix per frame. The elements of
 /// particles have no `unit`, as the reader does not know metres and refuses unknown units (and all
 /// strings of fixed length, which H5MD demands); the file must be opened with convert_units=False,
 /// and numbers are SI as stated by /h5md/modules/units. position, velocity, force (where the run
-/// has it), image, angular_velocity (for discs about z, [F][N]); per grain id, species, radius, mass.
-/// Grains that are absent in a frame are NaN in it, as H5MD has a fixed number of particles.
+/// has it), image, angular_velocity (for discs about z, [F][N]); per grain id, species, radius,
+/// mass. Grains that are absent in a frame are NaN in it, as H5MD has a fixed number of particles.
 /// /observables are copied from the run. Contacts cannot be stored.
 std::unique_ptr<RunWriter> h5md3d_writer(const TrajectoryReader& run, const ViewCell& cell,
                                          const std::string& path, bool overwrite);

@@ -23,7 +23,8 @@ struct ViewCell {
 
 ViewCell view_cell(const TrajectoryReader& run, std::size_t frame);
 
-/// As viewers take vectors, with three components: what lies in a plane has z = 0, and turns about z.
+/// A vector with three components, as viewers need it: a vector of the plane has z = 0, and a spin
+/// in the plane is about z.
 template <int D>
 Vec3 in_space(const Vector<D>& v)
 {

@@ -9,12 +9,12 @@
 /// Files of VTK (VTK File Formats, "XML file formats").
 namespace grseg {
 
-/// Arrays of a file: each is described in XML, and the raw bytes of all, each preceded by its length in
-/// 8 bytes, follow at the end.
+/// Arrays of a file: each is described in XML, and the raw bytes of all, each preceded by its
+/// length in 8 bytes, follow at the end.
 class VtkArrays {
  public:
-  /// Adds `count` numbers (float, double or std::int32_t); returns the line that describes them, without
-  /// a number of components where that is 0.
+  /// Adds `count` numbers (float, double or std::int32_t); returns the line that describes them,
+  /// which names the number of components unless it is 0.
   template <class Number>
   std::string add(const std::string& name, const Number* values, std::size_t count,
                   int components = 0);

@@ -25,8 +25,8 @@ libdeflate_decompressor* decompressor_of_thread()
   return one.get();
 }
 
-/// Numbers first .. first + count - 1 of `all`. Shuffled, all first bytes come first, then all second
-/// bytes, and so on.
+/// Numbers first .. first + count - 1 of `all`. Shuffled, all first bytes come first, then all
+/// second bytes, and so on.
 template <class Stored, class Bits, class Out>
 void copy_numbers(const std::uint8_t* bytes, std::size_t all, bool shuffled, std::size_t first,
                   std::size_t count, Out* out)

@@ -34,8 +34,8 @@ void check_written(herr_t status, const std::string& what)
   if (status < 0) throw RunError(fmt::format("cannot write {}: {}", what, reason_of_failure()));
 }
 
-// How much more than its own size a file can hold: deflate packs at most 1032 : 1, and what is small
-// does not matter.
+// Largest content of a file over its own size: deflate packs at most 1032 : 1, and small contents
+// do not matter.
 constexpr hsize_t most_packing = 1100;
 constexpr hsize_t small = 16 << 20;  // bytes
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Later versions of HDF5 keep the functions of 1.10, but under other names unless this is said. Every
-// file includes <hdf5.h> through this header.
+// Later versions of HDF5 keep the functions of 1.10, but under other names unless this is said.
+// Every file includes <hdf5.h> through this header.
 #define H5_USE_110_API
 #include <hdf5.h>
 
@@ -41,7 +41,8 @@ class Handle {
 };
 
 /// Writes what is left and closes a file; below 0 where it cannot be written. The file then stays
-/// open until the program ends: HDF5 2.2 aborts when a file is closed whose data it could not write.
+/// open until the program ends: HDF5 2.2 aborts when a file is closed whose data it could not
+/// write.
 herr_t close_file(hid_t file);
 
 using File = Handle<close_file>;
@@ -53,9 +54,9 @@ using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
 using Attribute = Handle<H5Aclose>;
 
-/// Turns off the library's own error messages, its closing of files at exit, which crashes on a file
-/// that could not be written (1.10.8; handles close theirs), and links that lead out of a file.
-/// Whoever opens a file calls it before any other function of the library.
+/// Turns off the library's own error messages, its closing of files at exit, which crashes on a
+/// file that could not be written (1.10.8; handles close theirs), and links that lead out of a
+/// file. Whoever opens a file calls it before any other function of the library.
 void silence();
 
 /// How files are written: in the format of HDF5 1.10, whose metadata carry checksums.
@@ -101,8 +102,9 @@ void append_rows(hid_t dataset, hid_t memory_type, hsize_t rows, const void* dat
 
 /// A dataset opened for reading and checked before anything is read: FormatError, naming `file` and
 /// the path, unless it exists, holds usual numbers of class `kind` (H5T_INTEGER or H5T_FLOAT, or
-/// H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and the filters deflate, shuffle and fletcher32. What is read must be possible for a file of this
-/// size, or it is refused before memory is allocated.
+/// H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and the filters
+/// deflate, shuffle and fletcher32. What is read must be possible for a file of this size, or it is
+/// refused before memory is allocated.
 class CheckedDataset {
  public:
   CheckedDataset() = default;
@@ -148,8 +150,8 @@ bool exists(hid_t parent, const std::string& path);
 /// The names linked in a group, in alphabetical order.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);
 
-/// Why the last call of the library failed, as the system told it ("No space left on device"), where
-/// the library knows; to be asked before the next call.
+/// Why the last call of the library failed, as the system told it ("No space left on device"),
+/// where the library knows; to be asked before the next call.
 std::string reason_of_failure();
 
 }  // namespace grseg::hdf5

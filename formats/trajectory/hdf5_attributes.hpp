@@ -13,8 +13,8 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
 
-/// The texts (at most 3 of at most 64 bytes) of an attribute; empty where it is absent or of another
-/// kind.
+/// The texts (at most 3 of at most 64 bytes) of an attribute; empty where it is absent or of
+/// another kind.
 std::vector<std::string> read_texts(hid_t object, const std::string& name);
 
 /// Content of the attribute `name` of the object at `path`; empty where it is absent. FormatError

@@ -22,8 +22,8 @@ enum class Number { i32, i64, u8, u64, f64, real };
 /// HDF5 type of these numbers in a file. The type in double precision is also the one in memory.
 hid_t type_of(Number number, bool float32 = false);
 
-/// A letter of `shape` is F frames, O = F+1, N grains, C contacts, K species and the boundary, D digests
-/// of a frame, d dimensions, w components of a spin (of a disc none), or 4.
+/// A letter of `shape` is F frames, O = F+1, N grains, C contacts, K species and the boundary, D
+/// digests of a frame, d dimensions, w components of a spin (of a disc none), or 4.
 struct LayoutRow {
   const char* path;
   Number type;
@@ -88,8 +88,8 @@ void create_trajectory(const std::string& path, const RunDescription& run,
 /// frames, the parts of an index are longer than a page.
 void keep_in_pages(hid_t access);
 
-/// Writes one of /parameters into `file`, or replaces it. In a `live` file it must be there already,
-/// with the same number of values. RunError where it cannot be written.
+/// Writes one of /parameters into `file`, or replaces it. In a `live` file it must be there
+/// already, with the same number of values. RunError where it cannot be written.
 void write_parameter(hid_t file, const std::string& name, const std::vector<double>& values,
                      bool live);
 void write_parameter(hid_t file, const std::string& name, const std::string& text);

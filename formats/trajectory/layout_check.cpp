@@ -149,8 +149,8 @@ class LayoutCheck {
     }
   }
 
-  /// Adds to the report the chunks that the shape needs (HDF5 would count them in an index, which may
-  /// claim any number); returns the rows of a chunk.
+  /// Adds to the report the chunks that the shape needs (HDF5 would count them in an index, which
+  /// may claim any number); returns the rows of a chunk.
   hsize_t count_chunks(const Dataset& dataset, const std::vector<hsize_t>& dims)
   {
     const Properties create(H5Dget_create_plist(dataset));

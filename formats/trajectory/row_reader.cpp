@@ -13,8 +13,8 @@ namespace {
 
 using namespace hdf5;
 
-// Bytes, unpacked, of the chunks that are kept for the next frames: for more threads than a block of
-// frames needs, and little beside a frame.
+// Bytes, unpacked, of the chunks that are kept for the next frames: for more threads than a block
+// of frames needs, and little beside a frame.
 constexpr std::size_t most_kept = 2 << 20;
 
 // Deflate packs at most 1032 : 1.

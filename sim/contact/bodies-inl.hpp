@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The members of bodies, four side by side in memory, as vectors and back; and of pairs of numbers. It
-// is compiled once per instruction set, by files that include themselves so (hwy/foreach_target.h).
+// The members of bodies, four side by side in memory, as vectors and back; and of pairs of numbers.
+// It is compiled once per instruction set, by files that include themselves so
+// (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_BODIES) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_BODIES
 #undef GRSEG_SIM_BODIES
@@ -16,8 +17,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Entries of MotionOf, one member per vector; with floats the last one is 0. With doubles also other
-/// things that have four members each, such as Pairs::Memory.
+/// Entries of MotionOf, one member per vector; with floats the last one is 0. With doubles also
+/// other things that have four members each, such as Pairs::Memory.
 template <class Tag>
 struct Bodies {
   hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
@@ -160,9 +161,9 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const 
   });
 }
 
-/// Gives bodies i the impulses (px, py) and bodies j the opposite ones; `spin` is taken from the rim
-/// speeds of both, times the inverse mass. Impulses are sorted into rows, not bodies into vectors:
-/// that takes half as many operations.
+/// Gives bodies i the impulses (px, py) and bodies j the opposite ones; `spin` is taken from the
+/// rim speeds of both, times the inverse mass. Impulses are sorted into rows, not bodies into
+/// vectors: that takes half as many operations.
 HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
                             const std::uint32_t* i, const std::uint32_t* j)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The equations of the contact law, see contact_law.hpp. V is a number, or a vector with a number of
-// each of several pairs. Compiled once per instruction set, by files that include themselves so
+// The equations of the contact law, see contact_law.hpp. V is a number, or a vector with a number
+// of each of several pairs. Compiled once per instruction set, by files that include themselves so
 // (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_CONTACT_LAW) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_CONTACT_LAW
@@ -57,8 +57,8 @@ HWY_INLINE Normal<V> normal_of_wall(V dx, V dy, V nx, V ny)
   return {nx, ny, dx * nx + dy * ny};
 }
 
-/// Effective masses 1/W_nn and 1/W_tt, kg; W_nt = 0 for discs. From the sum of inverse masses; 0 where
-/// `used` is false.
+/// Effective masses 1/W_nn and 1/W_tt, kg; W_nt = 0 for discs. From the sum of inverse masses; 0
+/// where `used` is false.
 template <class V>
 HWY_INLINE V normal_mass(V inverse_masses, MaskOf<V> used)
 {
@@ -88,8 +88,8 @@ struct Rebound {
 };
 
 /// `gap` (m) at mid-step, `separation` (m/s) before the step; `load` = W_nn p_n (m/s) and
-/// `remembered` are what the step before left behind, 0 for a pair that did not act. `horizon` in s.
-/// Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
+/// `remembered` are what the step before left behind, 0 for a pair that did not act. `horizon` in
+/// s. Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
 template <bool with_restitution, bool with_horizon, class V>
 HWY_INLINE Rebound<V> rebound_of(V gap, V separation, V load, V remembered, double restitution,
                                  double horizon)

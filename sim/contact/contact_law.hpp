@@ -39,8 +39,8 @@
 ///
 /// A pair that bore an impulse p_n in the step before cannot approach if that step was solved
 /// exactly. An approach below `solver_error` W_nn p_n is taken for the error of the solver: it is
-/// stopped and does not rebound. Otherwise a bed at rest trembles for ever, and light grains under a
-/// heavy one lift it. So does a separation below `parting_error` W_nn p_n not return.
+/// stopped and does not rebound. Otherwise a bed at rest trembles for ever, and light grains under
+/// a heavy one lift it. So does a separation below `parting_error` W_nn p_n not return.
 ///
 /// Overlap is never pushed out, so that no energy enters that way.
 /// docs/studies/accuracy.md compares the laws in flows and impacts.
@@ -71,13 +71,13 @@ struct LawParameters {
 /// makes its gap positive. In smallest diameters.
 constexpr double least_margin = 1e-9;
 
-/// Approach of a pair that bore a load, over W_nn p_n of the step before, that the solver's error may
-/// make. Measured: from 0.003 on beds come to rest to round-off, up to 0.01 overlap in flows is
+/// Approach of a pair that bore a load, over W_nn p_n of the step before, that the solver's error
+/// may make. Measured: from 0.003 on beds come to rest to round-off, up to 0.01 overlap in flows is
 /// the same (docs/studies/accuracy.md).
 constexpr double solver_error = 0.01;
 
-/// Separation of such a pair, likewise. Measured: with 0 overlap in flows is 10 % larger, with 0.1 and
-/// 0.3 it is the same as where nothing returns.
+/// Separation of such a pair, likewise. Measured: with 0 overlap in flows is 10 % larger, with 0.1
+/// and 0.3 it is the same as where nothing returns.
 constexpr double parting_error = 0.1;
 
 /// Parameters of a law: the only place in sim that decides what a law means;

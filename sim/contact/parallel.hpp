@@ -26,7 +26,8 @@ constexpr std::size_t range_count(std::size_t count)
   return (count + range_size - 1) / range_size;
 }
 
-/// do_range(begin, end) for ranges of range_size (the last one is shorter) that make up 0 .. count-1.
+/// do_range(begin, end) for ranges of range_size (the last one is shorter) that make up 0 ..
+/// count-1.
 template <class Range>
 void for_ranges(int threads, std::size_t count, const Range& do_range)
 {

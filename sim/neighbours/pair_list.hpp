@@ -75,8 +75,8 @@ class PairList {
     std::uint64_t renewals = 0;
   };
   State state() const;
-  /// Makes the list again, with the same skin. FormatError where one made at the same positions holds
-  /// other pairs.
+  /// Makes the list again, with the same skin. FormatError where one made at the same positions
+  /// holds other pairs.
   void restore(GrainState& grains, const State& state);
 
  private:

@@ -19,9 +19,9 @@ struct ExpectedCost {
 
 enum class Measure { where_long, always };
 
-/// Cost of a run of `scene` from `begin`, s, to its end; with its deposition where `begin` is 0. Time
-/// is measured, on a small bed of the same grains for less than a second; by default only where it
-/// may be a minute or more.
+/// Cost of a run of `scene` from `begin`, s, to its end; with its deposition where `begin` is 0.
+/// Time is measured, on a small bed of the same grains for less than a second; by default only
+/// where it may be a minute or more.
 ExpectedCost expected_cost(const Scene& scene, double begin = 0,
                            Measure measure = Measure::where_long);
 

@@ -23,8 +23,8 @@ std::string previous_of(const std::string& path);
 /// continues may always be replaced.
 void check_outputs(const RunOptions& options);
 
-/// Keeps other runs from writing the trajectory and the checkpoint of this one. UsageError where one
-/// does so already, RunError where a checkpoint cannot be written.
+/// Keeps other runs from writing the trajectory and the checkpoint of this one. UsageError where
+/// one does so already, RunError where a checkpoint cannot be written.
 class RunLocks {
  public:
   explicit RunLocks(const RunOptions& options);

@@ -25,7 +25,8 @@ void resolve_base_row(Scene& scene, const KeyGiven& given);
 /// How many beads fill the cell with a mean spacing that is not below `spacing`, m.
 long beads_at_spacing(const Scene& scene, double spacing);
 
-/// Largest gap between neighbours, beads or a wall, that the keys allow, m; below 0 where all overlap.
+/// Largest gap between neighbours, beads or a wall, that the keys allow, m; below 0 where all
+/// overlap.
 double widest_gap(const Scene& scene);
 
 /// Adds the row, and sets `to.top` to the top of its highest bead.

@@ -220,8 +220,8 @@ void set_restitution(double restitution, Simulation& simulation)
   simulation = Simulation(world, simulation.state());
 }
 
-/// Where a look after `steps` steps is an impatient one, halves the velocities of mobile grains, which
-/// do not rebound from then on; says whether it is.
+/// Where a look after `steps` steps is an impatient one, halves the velocities of mobile grains,
+/// which do not rebound from then on; says whether it is.
 bool slow_down(Simulation& simulation, std::int64_t steps, const Scene& scene, const Looks& looks)
 {
   if (steps % looks.every != 0 || static_cast<double>(steps) * scene.step < looks.impatient)

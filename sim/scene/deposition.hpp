@@ -21,14 +21,14 @@ struct DepositionHooks {
 };
 
 /// A bed at rest on its base at slope 0, made by letting a loose random packing fall: large grains
-/// under small ones (Staron & Phillips 2015, section II), or as Scene::initial says. Its height, twice the area-weighted
-/// mean height of its mobile grains above y = 0, lies within 2 % of scene.depth: grains are added
-/// or left out, at constant phi_L, and the deposition is repeated until it does. RunError where
-/// that cannot be reached.
+/// under small ones (Staron & Phillips 2015, section II), or as Scene::initial says. Its height,
+/// twice the area-weighted mean height of its mobile grains above y = 0, lies within 2 % of
+/// scene.depth: grains are added or left out, at constant phi_L, and the deposition is repeated
+/// until it does. RunError where that cannot be reached.
 ///
 /// A bed of depth H that still moves after 10 sqrt(2 H/g), as it may without friction, with
-/// restitution 1, or under a grain that rolls on a flat wall, no longer rebounds and loses half of its
-/// velocities every 2 sqrt(d_S/g) until it rests.
+/// restitution 1, or under a grain that rolls on a flat wall, no longer rebounds and loses half of
+/// its velocities every 2 sqrt(d_S/g) until it rests.
 ///
 /// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
 /// gravity points straight down; release() (geometry.hpp) starts the flow.

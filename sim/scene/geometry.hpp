@@ -51,8 +51,8 @@ struct Geometry {
 
   /// The deposited grains at t = 0, after what held them is gone or what presses them has come.
   Simulation (*release)(const Simulation& deposited, const Scene& scene) = nullptr;
-  /// True where `release` neither adds nor removes grains, so that frames before and after t = 0 can
-  /// be in one file.
+  /// True where `release` neither adds nor removes grains, so that frames before and after t = 0
+  /// can be in one file.
   bool keeps_grains = true;
   /// True where one of `bodies` moves freely.
   bool has_free_body = false;

@@ -45,8 +45,8 @@ void add_bead_base(Boundaries& to, const Scene& scene, const std::vector<double>
 /// Walls at both ends of the cell, where Scene::lateral says so.
 void add_side_walls(Boundaries& to, const Scene& scene);
 
-/// A base along the whole cell (a row of beads, or a straight wall, as Scene::base says), and walls at
-/// both ends as above.
+/// A base along the whole cell (a row of beads, or a straight wall, as Scene::base says), and walls
+/// at both ends as above.
 Boundaries base_and_sides(const Scene& scene);
 
 /// All boundary grains of `grains`, which are its last rows, as one body at rest.

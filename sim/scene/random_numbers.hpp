@@ -21,8 +21,9 @@ class RandomNumbers {
   /// In [0, 1).
   double uniform() { return gsl_rng_uniform(generator_.get()); }
 
-  // Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by operation.
-  // They are compiled here, without contraction, because GSL on Arm rounds them differently.
+  // Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by
+  // operation. They are compiled here, without contraction, because GSL on Arm rounds them
+  // differently.
 
   /// A normal number of mean 0 and standard deviation `deviation`.
   double gaussian(double deviation)

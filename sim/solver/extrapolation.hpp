@@ -12,13 +12,13 @@
 namespace grseg {
 
 /// Nesterov's extrapolation of Gauss-Seidel sweeps. With x_k the state after sweep k, the next
-/// sweep starts from x_k + f_k (x_k - x_(k-1)), where f_k = (w_k - 1)/w_(k+1) and
-/// w_(k+1) = (1 + sqrt(1 + 4 w_k^2))/2, so that f_k grows towards 1; where the changes that a sweep
-/// makes grow, w starts again from 1 (Nesterov 1983; restart by O'Donoghue & Candes, Found. Comput.
-/// Math. 15, 2015). It begins with `first_weight`, not with 1, because a step's first guess is nearly
-/// its solution (docs/studies/performance.md). Velocities are linear in impulses, so both are
-/// extrapolated alike; the state in between need not obey Signorini and Coulomb, as the next sweep
-/// projects it back.
+/// sweep starts from x_k + f_k (x_k - x_(k-1)), where f_k = (w_k - 1)/w_(k+1) and w_(k+1) = (1 +
+/// sqrt(1 + 4 w_k^2))/2, so that f_k grows towards 1; where the changes that a sweep makes grow, w
+/// starts again from 1 (Nesterov 1983; restart by O'Donoghue & Candes, Found. Comput. Math. 15,
+/// 2015). It begins with `first_weight`, not with 1, because a step's first guess is nearly its
+/// solution (docs/studies/accuracy.md). Velocities are linear in impulses, so both are extrapolated
+/// alike; the state in between need not obey Signorini and Coulomb, as the next sweep projects it
+/// back.
 ///
 /// Real is double or float.
 template <class Real>

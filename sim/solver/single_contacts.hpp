@@ -12,8 +12,8 @@
 namespace grseg {
 
 /// The contacts of a step in single precision: sweeps relax twice as many at a time, and memory has
-/// half as much to carry. All numbers are velocities in m/s or ratios (ContactOf<float>), whatever the
-/// unit of mass.
+/// half as much to carry. All numbers are velocities in m/s or ratios (ContactOf<float>), whatever
+/// the unit of mass.
 class SingleContacts {
  public:
   /// Applies the first guesses of the impulses to `motion`, whose last entry is the body that never

@@ -51,11 +51,12 @@ struct ContactPlace {
 };
 
 /// Free bodies within the solve of one step. In a sweep boundary grains have infinite mass; after
-/// each, every free body and its contacts are solved together. The contacts are relaxed and the body
-/// takes the velocity V of one Newton step towards
+/// each, every free body and its contacts are solved together. The contacts are relaxed and the
+/// body takes the velocity V of one Newton step towards
 ///   M (V - V_free) = P(V),  dP/dV = - (sum of the effective masses of its contacts under force),
-/// in turn, until V settles. P is the sum of its contact impulses along y, V_free its velocity without
-/// contacts. A body that keeps a small part of its load's impulse each step sinks into its grains.
+/// in turn, until V settles. P is the sum of its contact impulses along y, V_free its velocity
+/// without contacts. A body that keeps a small part of its load's impulse each step sinks into its
+/// grains.
 class FreeBodies {
  public:
   /// `place` gives the index in `motion` of each row of Grains.
@@ -65,8 +66,8 @@ class FreeBodies {
   /// Sets the velocities of all bodies from the impulses in the blocks. Returns the largest change,
   /// m/s.
   double update_velocities(std::span<Motion> motion);
-  /// Solves the bodies and their own contacts, the impulses of which it changes. Returns the largest
-  /// change of a body's velocity, m/s.
+  /// Solves the bodies and their own contacts, the impulses of which it changes. Returns the
+  /// largest change of a body's velocity, m/s.
   double balance(std::span<Motion> motion, double friction, Effects effects);
 
  private:
@@ -80,15 +81,16 @@ class FreeBodies {
   std::vector<Body> bodies_;
 };
 
-/// Grains that friction can lock between two bodies which contacts do not move: the line through the
-/// two contact points lies in both cones of friction (tan of its angle to the normals below mu).
+/// Grains that friction can lock between two bodies which contacts do not move: the line through
+/// the two contact points lies in both cones of friction (tan of its angle to the normals below
+/// mu).
 ///
 /// No impulses of these contacts, however large, push such a grain out again. So it cannot rebound
-/// from them: sweeps would seek rebounds in vain and let forces grow without bound. And a relaxation of
-/// either contact stops little of its motion into the gap: with the few sweeps of a step it would
-/// sink deeper, step after step. So its contacts with these bodies are relaxed in turn, after each
-/// sweep, until they settle. Between bodies that close in on each other no impulses stop a locked grain;
-/// what they have added up is forgotten when the bodies part.
+/// from them: sweeps would seek rebounds in vain and let forces grow without bound. And a
+/// relaxation of either contact stops little of its motion into the gap: with the few sweeps of a
+/// step it would sink deeper, step after step. So its contacts with these bodies are relaxed in
+/// turn, after each sweep, until they settle. Between bodies that close in on each other no
+/// impulses stop a locked grain; what they have added up is forgotten when the bodies part.
 class WedgedGrains {
  public:
   /// `on_base` are the contacts with bodies that contacts do not move. Sets rebounds that cannot be
@@ -97,7 +99,8 @@ class WedgedGrains {
                double friction);
 
   bool empty() const { return grains_.empty(); }
-  /// Solves the contacts of each grain. Returns the largest change of a contact's relative velocity, m/s.
+  /// Solves the contacts of each grain. Returns the largest change of a contact's relative
+  /// velocity, m/s.
   double settle(std::span<Motion> motion, double friction, Effects effects);
 
  private:

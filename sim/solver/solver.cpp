@@ -19,8 +19,8 @@ template <class Real>
 constexpr double last_digits = 8 * double{std::numeric_limits<Real>::epsilon()};
 constexpr int sweeps_before_round_off = 32;
 
-// In so many sweeps from a good first guess changes hardly ever grow; in more they do, and without a
-// restart extrapolation would do worse than plain sweeps.
+// In so many sweeps from a good first guess changes hardly ever grow; in more they do, and without
+// a restart extrapolation would do worse than plain sweeps.
 constexpr int most_without_restart = 8;
 
 /// m/s, the largest component of all velocities.
@@ -124,8 +124,8 @@ class Sweeping {
   }
 
  private:
-  /// The first sweeps over several strips, whose changes nobody waits for: the least number, but not more
-  /// than may go without a restart of the extrapolation.
+  /// The first sweeps over several strips, whose changes nobody waits for: the least number, but
+  /// not more than may go without a restart of the extrapolation.
   SweepResult first_of_several()
   {
     const int rounds = (std::min(least_, most_without_restart) + at_a_time_ - 1) / at_a_time_;
@@ -255,8 +255,8 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion>
     apply();
     return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
   }
-  // Rounds of a body and its contacts may pass impulses far larger than those they end with. Velocities
-  // that follow from the last impulses alone keep none of their last digits.
+  // Rounds of a body and its contacts may pass impulses far larger than those they end with.
+  // Velocities that follow from the last impulses alone keep none of their last digits.
   memory.free_flight.assign(motion.begin(), motion.end());
   apply();
   apart.free->update_velocities(motion);

@@ -75,10 +75,10 @@ struct SolverReport {
 /// The solve ends when no contact's relative velocity changes by more than `tolerance` times the
 /// reference velocity: the quadratic mean of W p over the `count` contacts, within `range`, so that
 /// a motionless bed stops at once and a few contacts of light grains under a heavy one do not count
-/// for all. Normal and tangential parts both count. The largest rather than the mean change decides,
-/// so that a contact which has just closed is not hidden by thousands of settled ones. `min_sweeps`
-/// come first. Changes in the last digits of the fastest velocity are convergence, too: without
-/// gravity loads fade, and no number of sweeps makes changes small against them.
+/// for all. Normal and tangential parts both count. The largest rather than the mean change
+/// decides, so that a contact which has just closed is not hidden by thousands of settled ones.
+/// `min_sweeps` come first. Changes in the last digits of the fastest velocity are convergence,
+/// too: without gravity loads fade, and no number of sweeps makes changes small against them.
 ///
 /// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies and wedged grains are
 /// solved in double precision, whatever the setting.

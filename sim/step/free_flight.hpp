@@ -26,8 +26,8 @@ void forecast_positions(double onward, const GrainState& grains, std::vector<Vec
 /// Adds `change`, m/s, to the velocities of all mobile grains.
 void accelerate(const Vec2& change, GrainState& grains, int threads);
 
-/// Brings x of all grains into [0, length), m, and counts the periods in GrainState::image. RunError
-/// beyond most_periods.
+/// Brings x of all grains into [0, length), m, and counts the periods in GrainState::image.
+/// RunError beyond most_periods.
 void wrap_positions(double length, GrainState& grains, int threads);
 
 // Motion of World::bodies, boundary grains that move, during a step. `body_of` gives the place in

@@ -26,8 +26,8 @@ constexpr double floor_of_reference = 1e-3;
 // factor was measured: in the paper's flow the reference is 6.6 times that velocity in the median
 // and above 16 in less than one step of a hundred (docs/studies/accuracy.md).
 constexpr double most_of_loads = 16;
-// In the first step, in which boundaries may jerk, it is the load and this part of the fastest approach:
-// otherwise an impact that few sweeps pass on gains or loses a quarter of its energy.
+// In the first step, in which boundaries may jerk, it is the load and this part of the fastest
+// approach: otherwise an impact that few sweeps pass on gains or loses a quarter of its energy.
 constexpr double part_of_approach = 0.1;
 
 // In smallest diameters. The best lies between 0.5 and 0.9, whatever the scene and the accuracy

@@ -22,8 +22,8 @@ struct KeyValue {
   std::vector<std::string> words{};  ///< of a choice or switch
   /// Sets the scene's value from what the user wrote; SceneError where the key cannot have it.
   std::function<void(const std::string& key, const std::string& text, Scene&)> read;
-  /// The scene's value in SI, without a unit; "" where it has none. read() of a length asks for a unit:
-  /// with_unit().
+  /// The scene's value in SI, without a unit; "" where it has none. read() of a length asks for a
+  /// unit: with_unit().
   std::function<std::string(const Scene&)> text;
   /// The scene's value as a number, 1 for on; of a choice, empty.
   std::function<double(const Scene&)> number;
@@ -96,8 +96,8 @@ std::string to_text(const Scene& scene);
 /// Parameters of the scene in /parameters of a trajectory.
 Parameters to_parameters(const Scene& scene);
 
-/// `now` with the values of `before` where both are the same up to round-off: 70 d_S of 5 mm are 350 mm,
-/// but for the last bit.
+/// `now` with the values of `before` where both are the same up to round-off: 70 d_S of 5 mm are
+/// 350 mm, but for the last bit.
 Scene without_round_off(Scene now, const Scene& before);
 
 /// The first key of `role` in which the scenes differ, or "".

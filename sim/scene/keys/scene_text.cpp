@@ -67,7 +67,8 @@ std::string without_dashes(std::string option)
 
 using ParsedKeys = po::parsed_options;
 
-/// Stores the keys that `text` sets, after `change` had a look at them. `place` gives the line of a key.
+/// Stores the keys that `text` sets, after `change` had a look at them. `place` gives the line of a
+/// key.
 void read_keys(const std::string& text, const std::string& name,
                const std::function<std::string(const std::string&)>& place,
                const std::function<void(ParsedKeys&)>& change, po::variables_map& values)
