@@ -182,8 +182,8 @@ std::string errors_over(const std::vector<double>& values)
 
 namespace {
 
-/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors; without an error
-/// where the windows have none.
+/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors; without an
+/// error where the windows have none.
 std::string direction(const std::vector<double>& push)
 {
   const auto [mean, error] = mean_of_windows(push);

@@ -57,10 +57,11 @@ std::vector<std::size_t> layers_inside(const MomentumBalance<D>& window, const L
                                        double large_diameter);
 
 /// The balances of a run in words: which way each mechanism pushes the large grains, under each
-/// partition rule and with mixed contacts cut at the contact point, and how well the balances close.
-/// Forces are along y in units of the large grains' weight, upward positive, from the layers inside the
-/// bed (layers_inside); they are summed over layers before they are divided. Errors are standard errors
-/// over windows, taken as independent. Where species are not two, only how well they close is given.
+/// partition rule and with mixed contacts cut at the contact point, and how well the balances
+/// close. Forces are along y in units of the large grains' weight, upward positive, from the layers
+/// inside the bed (layers_inside); they are summed over layers before they are divided. Errors are
+/// standard errors over windows, taken as independent. Where species are not two, only how well
+/// they close is given.
 template <int D>
 class BalanceSummary {
  public:
@@ -103,7 +104,8 @@ class BalanceSummary {
   template <class Of>
   std::vector<double> series(const Of& of) const;
   std::vector<double> series(std::size_t rule, double OfRule::*place) const;
-  /// Of p* = sum of none/sum of (none - all) over windows.
+  /// The share p* at which the push is 0, (sum of none)/(sum of none - all) over windows, with its
+  /// error.
   MeanOfWindows zero() const;
 
   Layers layers_;

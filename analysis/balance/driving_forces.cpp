@@ -64,7 +64,8 @@ DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t laye
 
 namespace {
 
-/// What the large grains' share psi of the mixture's stress makes of its slope, N/m^2 or N/m^3.
+/// The push -(psi - phi) times the `slope` of the mixture's stress `total`, N/m^2 or N/m^3; psi is
+/// the large grains' share of that stress. 0 where there is no stress.
 double push_of(double psi, double phi, double total, double slope)
 {
   return total > 0 ? -(psi - phi) * slope : 0;

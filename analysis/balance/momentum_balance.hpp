@@ -31,7 +31,7 @@ struct SpeciesMomentum {
   Vector<D> base = Vector<D>::Zero();         // from boundary grains and walls
   Vector<D> force = Vector<D>::Zero();        // the stored forces of its grains; rate - kinetic
 
-  /// What the terms leave of the rate: round-off.
+  /// The rate less all terms: round-off.
   Vector<D> residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
 
   static constexpr auto members = std::tuple(
@@ -44,9 +44,9 @@ struct SpeciesMomentum {
 /// Momentum balance of each species by coarse graining over height (Goldhirsch 2010; Weinhart et
 /// al. 2012; for species Tunuguntla, Thornton & Weinhart 2016). S(y') is the part of the kernel of
 /// a point at height y' that lies in the layer (share_kernel). With y_i the stored height of a
-/// grain (mid-step), v its velocity after the solve, v_before that before it, F = m (v -
-/// v_before)/h its stored force, f_ij a contact force and c the height of its contact point, all
-/// sums over V:
+/// grain (mid-step), v its velocity after the solve, v_before its velocity before the solve, F = m
+/// (v - v_before)/h its stored force, f_ij a contact force and c the height of its contact point,
+/// all sums over V:
 ///
 ///   rate         sum (m/h) [v S(y_i + h v_y) - v_before S(y_i)]
 ///   gravity      sum m g S(y_i)
@@ -59,11 +59,11 @@ struct SpeciesMomentum {
 ///
 /// to round-off in every frame: F = m g + sum f_ij for every grain, and at c the forces between two
 /// grains of one species cancel. The step reaches from just before the impulses of this mid-step to
-/// just before those of the next, h later; in between grains fly straight, so that nothing is
-/// neglected. `contact` is exactly the flow in at the bottom of the layer less the flow out at its
-/// top, of the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij, and `kinetic` the
-/// same of the mean of sum m v v_y psi over that flight, which differs by O(h) from `momentum_flux`
-/// at its beginning.
+/// just before the impulses of the next, h later; in between grains fly straight, so that nothing
+/// is neglected. `contact` is exactly the flow in at the bottom of the layer less the flow out at
+/// its top, of the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij, and `kinetic`
+/// the same of the mean of sum m v v_y psi over that flight, which differs by O(h) from
+/// `momentum_flux` at its beginning.
 ///
 /// Over frames of consecutive steps the rates add up to the change of momentum; over frames further
 /// apart they are a sample of it, whose expectation is `change`.
@@ -116,8 +116,9 @@ class MomentumBalance {
   std::vector<Vector<D>> pull_;  // N, sum of all contact forces on each grain of this frame
 };
 
-/// What a partition rule makes of the contacts of one species in one layer; means over the layer and
-/// over frames. Force densities N/m^2 or N/m^3, stress N/m or Pa, compression positive.
+/// Forces and stress of the contacts of one species in one layer under a partition rule; means over
+/// the layer and over frames. Force densities N/m^2 or N/m^3, stress N/m or Pa, compression
+/// positive.
 template <int D>
 struct PartitionedForces {
   Tensor<D> stress = Tensor<D>::Zero();
@@ -136,8 +137,8 @@ struct PartitionedForces {
 /// mixed contact: with the share p of the larger grain (of the species of larger diameter) the cut
 /// is p of the branch away from that grain's centre. Up to the cut the contact is a stress of the
 /// larger grain's species, from there on one of the smaller grain's, and at the cut the two species
-/// act on each other. With S(y') as in MomentumBalance, y_i the height of a grain, c that of the cut
-/// and f_ij the force on i, sums over V:
+/// act on each other. With S(y') as in MomentumBalance, y_i the height of a grain, c the height of
+/// the cut and f_ij the force on i, sums over V:
 ///
 ///   contact      C    = sum f_ij [S(y_i) - S(c)]   = -d/dy of the species' stress, exactly
 ///   interaction  beta = sum f_ij S(c)              over contacts with the other species
@@ -145,10 +146,10 @@ struct PartitionedForces {
 ///                                                  touch, under any rule
 ///   C + beta + base   = N = sum f_ij S(y_i)
 ///
-/// N is the contact force on the species' grains, each booked at its own centre; in a steady flow minus
-/// their weight plus the divergence d/dy K of their kinetic stress. The rule is not in
-/// it: a rule is a gauge, which moves stress into interaction and back. Under `drop` both grains are
-/// cut at their own centres, so that mixed contacts are interaction alone.
+/// N is the contact force on the species' grains, each booked at its own centre; in a steady flow
+/// minus their weight plus the divergence d/dy K of their kinetic stress. The rule is not in it: a
+/// rule is a gauge, which moves stress into interaction and back. Under `drop` both grains are cut
+/// at their own centres, so that mixed contacts are interaction alone.
 template <int D>
 class PartitionedBalance {
  public:

@@ -20,7 +20,7 @@ const std::array<CheckTolerances::Option, 12>& CheckTolerances::options()
   using T = CheckTolerances;
   static const std::array<Option, 12> all{
       {{"round-off", &T::round_off, "deviation of quantities that hold to round-off, relative"},
-       {"single-precision", &T::single_precision, "the same where the file stores float32"},
+       {"single-precision", &T::single_precision, "likewise, in files that store float32"},
        {"mean-overlap", &T::mean_overlap, "mean overlap of the pairs that overlap, d_S"},
        {"largest-overlap", &T::largest_overlap, "largest overlap, d_S"},
        {"mean-approach", &T::mean_approach, "mean deficit of separation velocity, d_S per step"},

@@ -113,9 +113,9 @@ std::string listed();
 
 }  // namespace checks
 
-/// A quantity that was held against a tolerance. It is undecided if it is statistical and within what
-/// chance alone explains, where that is more than the tolerance: a deviation that the tolerance does
-/// not allow would not have been seen.
+/// A quantity that was held against a tolerance. It is undecided if it is statistical and within
+/// what chance alone explains, where that is more than the tolerance: a deviation that the
+/// tolerance does not allow would not have been seen.
 struct CheckLine {
   std::string quantity;  // "force_balance", or the path inside the file that departs
   double y0 = no_number, y1 = no_number;  // m, of a layer
@@ -145,7 +145,8 @@ struct CheckReport {
 
 /// `#` lines, a line of column names, one row per line. Numbers have 17 significant digits.
 std::string to_tsv(const CheckReport& report);
-/// {"lines": [{"quantity", "layer", "measured", ...}, ...], "passed", "undecided", "settings", "history"}
+/// {"lines": [{"quantity", "layer", "measured", ...}, ...], "passed", "undecided", "settings",
+/// "history"}
 std::string to_json(const CheckReport& report);
 
 /// Holds what was measured against the tolerance of its check: makes the lines of the report.

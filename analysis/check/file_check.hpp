@@ -28,9 +28,9 @@ class ContentCheck {
   std::size_t frames_ = 0, damaged_ = 0, first_damaged_ = 0;
 };
 
-/// Whether a file is as formats/README.md specifies, beyond what TrajectoryReader requires (numbers
-/// finite, indices in range, offsets and times increasing, radii and masses positive, species in
-/// the list): its layout (formats/trajectory/layout_check.hpp), which datasets it must have, and in which
+/// Compares a file with formats/README.md, beyond what TrajectoryReader requires (numbers finite,
+/// indices in range, offsets and times increasing, radii and masses positive, species in the list):
+/// its layout (formats/trajectory/layout_check.hpp), which datasets it must have, and in which
 /// range their values lie.
 class SpecificationCheck {
  public:

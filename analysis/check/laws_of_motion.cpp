@@ -261,8 +261,8 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
         std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
   } else {
     throw FormatError(fmt::format(
-        "{}: /parameters/contact_law is '{}', which this grseg-check does not know; use that of the "
-        "version that made the run",
+        "{}: /parameters/contact_law is '{}', which this grseg-check does not know; use the "
+        "grseg-check of the version that made the run",
         run.path(), law));
   }
   return rules;

@@ -85,9 +85,10 @@ TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const B
 
 /// The mobile grains as one body from frame to frame:
 ///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
-/// which holds to round-off where that mean (/observables/base_force_x, _y, and _z of spheres) is over all the steps
-/// between; and the distance that the centre of mass moves against the integral of its velocity over
-/// time (trapezium rule). Between frames of different grains neither is defined, and nothing counts.
+/// which holds to round-off where that mean (/observables/base_force_x, _y, and _z of spheres) is
+/// over all the steps between; and the distance that the centre of mass moves against the integral
+/// of its velocity over time (trapezium rule). Between frames of different grains neither is
+/// defined, and nothing counts.
 template <int D>
 class MotionBalance {
  public:
@@ -123,10 +124,9 @@ class MotionBalance {
 /// Checks the sum of partial stresses: sigma^nu summed over the species nu is sigma in the whole
 /// bed (Staron & Phillips 2015, eq. 1), where
 ///   sigma^nu = (1/V) sum over contact ends on grains of nu of (force on the grain) (x) (x - c),
-/// c the contact point, from the positions x of the grains, and sigma is that of
-/// PartialContactStress, from the branches of the contacts. The stress of each species is also
-/// compared with that of PartialContactStress (rule contact-point), and the sum of all by size
-/// with the total.
+/// c the contact point, from the positions x of the grains. sigma is made by PartialContactStress
+/// from the branches of the contacts. The stress of each species is also compared with
+/// PartialContactStress (rule contact-point), and the sum of all by size with the total.
 template <int D>
 class StressClosure {
  public:
@@ -145,8 +145,7 @@ class StressClosure {
 
 class TrajectoryReader;
 
-/// The contact law of a run, as its /parameters say; the laws are those of
-/// docs/studies/accuracy.md.
+/// The contact law of a run, as its /parameters say; docs/studies/accuracy.md gives the laws.
 struct ContactRules {
   std::optional<double> friction;     // Coulomb's mu
   std::optional<double> restitution;  // Newton's e
@@ -164,9 +163,9 @@ struct ContactRules {
 /// must not include: a new law is named here, too.
 ContactRules read_contact_rules(const TrajectoryReader& run);
 
-/// How far the contacts of a run are from the laws of Coulomb, Signorini and Newton. With n from j
-/// to i, f_n and f_t the parts of the force on i, and u the velocity of i less that of j along n
-/// (u' before the step, from `force`):
+/// Largest departures of a run's contacts from the laws of Coulomb, Signorini and Newton. With n
+/// from j to i, f_n and f_t the parts of the force on i, and u the velocity of i relative to j
+/// along n (u' before the step, from `force`):
 ///   Coulomb     |f_t| <= mu f_n                         (to round-off: each sweep ends with it)
 ///   tension     f_n >= 0                                (to round-off)
 ///   open gap    a force acts only where the pair, after `look_ahead` steps of free flight at the

@@ -63,7 +63,8 @@ Layers layers_of(const TrajectoryReader& run, const std::string& layer)
           box.length_x, run.dimension() == 3 ? std::optional(box.length_z) : std::nullopt};
 }
 
-/// --begin, or the tilt at t = 0; the first frame of runs that end before. In steps, as windows are cut.
+/// --begin, or the tilt at t = 0; the first frame of runs that end before. In steps, as windows are
+/// cut.
 std::int64_t first_step(const TrajectoryReader& run, const WindowSettings& settings)
 {
   if (settings.begin) return whole_steps(*settings.begin, run.step(), "--begin");
@@ -130,7 +131,7 @@ bool PhysicsCheck<D>::in_window(std::size_t index) const
   return window_ < windows_.size() && index >= windows_[window_].frames.front();
 }
 
-/// Whether no walls carry a part of the weight.
+/// True where no wall carries a part of the weight.
 template <int D>
 bool PhysicsCheck<D>::is_periodic() const
 {
@@ -249,7 +250,7 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
   for (auto& line : lines)
     if (line.verdict == Verdict::failed &&
         (line.quantity.starts_with("approach") || line.quantity.starts_with("overlap")))
-      line.remark += "; the tolerance is that of standard, and this run is a draft";
+      line.remark += "; the tolerance is for --accuracy standard, and this run is a draft";
 }
 
 /// Why no layer can be held against the weight above it, or "".

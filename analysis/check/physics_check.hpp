@@ -103,7 +103,7 @@ class PhysicsCheck {
   std::vector<RunningSums> window_starts_;
 };
 
-/// What is checked besides the file's digests.
+/// Checks to make besides the file's digests.
 struct ChecksAsked {
   bool deep = false;                       // the specification
   std::optional<PhysicsSettings> physics;  // none: not checked

@@ -142,7 +142,7 @@ void WeightSums<D>::add(const Grains& grains, const Frame<D>& frame)
   for (std::size_t n = 0; n < mass.size(); ++n) mass_above_[n] += mass[n];
 }
 
-/// Of contacts and motion of all species in a layer, times its volume.
+/// Stress of contacts and motion of all species in a layer, times the layer's volume, N m.
 template <int D>
 Tensor<D> WeightSums<D>::whole_stress(std::size_t layer) const
 {

@@ -49,7 +49,7 @@ constexpr double rarely =
 constexpr Eigen::Index fewest_windows = 10;
 constexpr double fewest_independent = 2;
 
-/// Of one run: the first tenth less the last half, with its error.
+/// Mean of a run's first tenth less the mean of its last half, with the error of the difference.
 std::optional<Measured> compare(const Eigen::VectorXd& run)
 {
   if (run.size() < fewest_windows) return {};
@@ -59,7 +59,7 @@ std::optional<Measured> compare(const Eigen::VectorXd& run)
   const double independent = static_cast<double>(late) / time;
   if (independent < fewest_independent) return {};
   const double squares = (last.array() - last.mean()).square().sum();
-  // Of correlated windows the sum of squares about their mean is smaller by n_eff - 1 over n_eff.
+  // Correlation makes the sum of squares about the mean smaller, by (n_eff - 1)/n_eff.
   const double variance = squares / static_cast<double>(late) * independent / (independent - 1);
   const double error = std::sqrt(
       variance * (1 / std::max(1.0, static_cast<double>(early) / time) + 1 / independent));
@@ -99,8 +99,9 @@ double time_after(const FitData& data, double left_out)
   return begin + left_out * (end - begin);
 }
 
-/// Of contacts |sigma_xy|/sigma_yy, which in a steady chute is the tangent of its slope and in one that
-/// gathers speed less; of the kinetic stress its sigma_yy, which grows with the speed.
+/// A number by window that tells whether the flow is steady. For contacts it is
+/// |sigma_xy|/sigma_yy: the tangent of the slope in a steady chute, less in one that gathers speed.
+/// For the kinetic stress it is sigma_yy, which grows with the speed.
 Eigen::VectorXd motion_by_window(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {
@@ -144,7 +145,7 @@ std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
   };
   add(kinetic ? "the kinetic stress (yy)" : "|sigma_xy|/sigma_yy",
       motion_by_window(data, rule, settings));
-  // What the composition of a window does not explain.
+  // Noise: the part of B that the composition of a window does not explain.
   const auto windows = window_sums(fit_points(data, rule, settings), data.runs);
   add("B by " + rule.name(), windows.excess_noise() / windows.weight().mean());
   if (differs.empty()) return {};

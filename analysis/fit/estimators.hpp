@@ -11,15 +11,16 @@
 
 namespace grseg {
 
-/// The segregation strength B of Gray & Thornton (2005), psi_L = phi_L (1 + B phi_S) (Staron & Phillips
-/// 2015, eqs. 3 and 4; of kinetic stress eqs. 6 and 7), from partial stresses of many layers and
-/// windows: its mean over layers and frames with the weight phi_L phi_S, as a ratio of sums that are
-/// linear in the large grains' share psi_L of the stress. It takes no logarithm and divides nothing by
-/// the rarer species, and so does not suffer where a window holds few of its grains.
+/// The segregation strength B of Gray & Thornton (2005), psi_L = phi_L (1 + B phi_S) (Staron &
+/// Phillips 2015, eqs. 3 and 4; of kinetic stress eqs. 6 and 7), from partial stresses of many
+/// layers and windows: its mean over layers and frames with the weight phi_L phi_S, as a ratio of
+/// sums that are linear in the large grains' share psi_L of the stress. It takes no logarithm and
+/// divides nothing by the rarer species, and so does not suffer where a window holds few of its
+/// grains.
 ///
-/// Beside it stands what the paper fits, with x = phi_S/phi_L and y = sigma^S/sigma^L: the slope s of
-/// y = s x (eq. 2), which means B(phi_L) = (1 - s)/(phi_L + s phi_S), and the power law y = k x^a. NaN
-/// where a number is not defined.
+/// Beside it stands what the paper fits, with x = phi_S/phi_L and y = sigma^S/sigma^L: the slope s
+/// of y = s x (eq. 2), which means B(phi_L) = (1 - s)/(phi_L + s phi_S), and the power law y = k
+/// x^a. NaN where a number is not defined.
 struct Estimators {
   double B = no_number;        // sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
   double paper_s = no_number;  // exp of the weighted mean of ln(y/x)
@@ -56,8 +57,8 @@ Estimators estimators_of(const std::vector<FitPoint>& points);
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule);
 
 /// Additive sums from which every estimator follows, one row per window, and what of them is noise:
-/// the part that the layers' compositions do not explain, which is what resampling varies. With f the
-/// frames of a point, w its weight, x = phi_S/phi_L, y = sigma^S/sigma^L, D = psi_L - phi_L and
+/// the part that the layers' compositions do not explain, which is what resampling varies. With f
+/// the frames of a point, w its weight, x = phi_S/phi_L, y = sigma^S/sigma^L, D = psi_L - phi_L and
 /// Q = phi_L phi_S, the columns are the sums over a window's points of f D and f Q (of points whose
 /// whole stress is positive), w, w ln x, w ln y, w (ln x)^2 and w ln x ln y (of those with a
 /// logarithm).
@@ -68,10 +69,10 @@ struct WindowSums {
 
   /// The sums of all windows.
   Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
-  /// Of each window in B, and in the mean of ln(y/x).
+  /// Weight of each window in B, and in the mean of ln(y/x).
   Eigen::VectorXd weight() const { return sums.col(fQ); }
   Eigen::VectorXd weight_of_logarithms() const { return sums.col(w); }
-  /// Of each window the sum over its layers of frames x (psi_L - phi_L), and what of it is noise.
+  /// Sum over each window's layers of frames x (psi_L - phi_L), and the part of it that is noise.
   Eigen::VectorXd excess() const { return sums.col(fD); }
   Eigen::VectorXd excess_noise() const { return noise.col(fD); }
   /// The sums of samples that count window k times(sample, k) times, a row per sample.
@@ -85,12 +86,12 @@ WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& ru
 /// for the mean of ln(y/x).
 Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up);
 
-/// The same estimates as from the points, from totals of those sums.
+/// The estimators from WindowSums::total(), equal to estimators_of the points.
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total);
 
-/// By how much each window moves a statistic.
+/// Influence of each window on a statistic: its part of the statistic's deviation.
 struct Influence {
-  Eigen::VectorXd sums;  // of all that the window holds: what whole runs differ by
+  Eigen::VectorXd sums;  // of the window's sums: differs between whole runs
   Eigen::VectorXd
       noise;  // of what composition does not explain: what windows inside a run differ by
 
@@ -99,19 +100,19 @@ struct Influence {
     return {sums - other.sums, noise - other.noise};
   }
 };
-/// That on an estimator: its derivative by the sums times the window's sums. These add up to 0 over all
-/// windows, since estimators are ratios.
+/// Influence on an estimator: its derivative by the sums times the window's sums. It adds up to 0
+/// over all windows, since estimators are ratios.
 Influence influence_on(double Estimators::*place, const WindowSums& windows);
 
-/// Errors of statistics over whole runs, the flows being fixed: those of the flows added. Of a
-/// flow with a single run the scatter of its windows stands for that of runs, about what each
-/// window would add if it were like the run, which goes by its weight.
+/// Errors of statistics over whole runs of fixed flows: the sum of the flows' errors. Where a flow
+/// has a single run, the scatter of its windows replaces the scatter of runs. A window's deviation
+/// is then its influence less the part of the run's influence that goes with its weight.
 class RunErrors {
  public:
   /// weight: of each window.
   RunErrors(const FitData& data, const Eigen::VectorXd& weight);
 
-  /// Of a statistic whose deviation is the sum of the windows' influences.
+  /// Error of a statistic whose deviation is the sum of the windows' influences.
   StandardError within_flows(const Influence& influence) const;
   /// The chance that runs of like flows differ between flows as much as these do, by Fisher's
   /// test of the mean squares of influence over weight between and within flows; 1 where it cannot
@@ -135,8 +136,8 @@ class RunErrors {
   std::vector<Flow> flows_;
 };
 
-/// The error over a population of a statistic that `sampled` makes of how often samples count the windows,
-/// and whose deviation is the sum of the windows' influences.
+/// The error over a population of a statistic that `sampled` makes of how often samples count the
+/// windows, and whose deviation is the sum of the windows' influences.
 template <class Sampled>
 StandardError error_over(Population over, const Bootstrap& bootstrap, const Dependence& dependence,
                          const Sampled& sampled, const RunErrors& runs, const Influence& influence)

@@ -23,8 +23,8 @@ namespace {
 
 using SumsOfRow = std::function<ContactSums<3>(std::size_t)>;
 
-/// Kinetic sums as contact sums in which nothing is mixed. Where all grains have one density the table
-/// has no areas or volumes, and masses have the same ratios.
+/// Kinetic sums as contact sums in which nothing is mixed. Where all grains have one density the
+/// table has no areas or volumes, and masses have the same ratios.
 SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
 {
   const auto column = [&table](const std::string& name) {
@@ -99,7 +99,7 @@ std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
   return &Count::used;
 }
 
-/// Those of one row of a table and one pair of its species.
+/// The sample of one row of a table and one pair of its species.
 LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesList& species,
                       int dimension)
 {
@@ -306,7 +306,7 @@ std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
     if (!std::isfinite(small + large + total))
       throw FormatError(fmt::format(
           "{}: the stress ({}) by {} is not finite: a sum that it needs was not kept "
-          "(see the line '# not kept: ...') or is too large; make the table anew",
+          "(see the line '# not kept: ...') or is too large; make the table again",
           data.tables[sample.table], word_of(settings.component, components), rule.name()));
     points.push_back({sample.window, sample.phi_large, sample.weight, sample.frames,
                       sample.size_ratio, small, large, total});

@@ -18,8 +18,8 @@
 
 namespace grseg {
 
-/// What an interval is over: the population from which runs are taken to come, and what of it is
-/// estimated. A flow is what runs have in common that differ in their seed alone.
+/// The population that an interval is over: where runs are taken to come from, and which number is
+/// estimated. Runs that differ in their seed alone are of one flow.
 enum class Population {
   automatic,     ///< windows of one run, runs of one flow, these flows of several
   windows,       ///< these very runs, had they lasted longer
@@ -31,12 +31,12 @@ enum class Population {
 };
 inline constexpr Choice<Population> populations[] = {
     {"windows", Population::windows, "these runs, had they lasted longer"},
-    {"runs", Population::runs, "one flow, over all its runs"},
-    {"flows", Population::flows, "these flows, weighted as they are"},
+    {"runs", Population::runs, "this flow, over all runs that it could have"},
+    {"flows", Population::flows, "these flows, each with its weight"},
     {"equal-flows", Population::equal_flows, "these flows, each counting the same"},
-    {"random-flows", Population::random_flows, "all flows of which these are a random sample"},
+    {"random-flows", Population::random_flows, "all flows, these being a random sample"},
     {"compositions", Population::compositions,
-     "these compositions, as if B were one function of composition"}};
+     "these compositions, if B depends on composition alone"}};
 
 /// The automatic one of so many runs and flows; the others stand for themselves.
 Population resolved(Population over, std::size_t runs, std::size_t flows);
@@ -45,13 +45,15 @@ Population resolved(Population over, std::size_t runs, std::size_t flows);
 std::string estimand_words(Population over, std::size_t flows);
 
 enum class Quantity { contact, kinetic };
-inline constexpr Choice<Quantity> quantities[] = {{"contact", Quantity::contact},
-                                                  {"kinetic", Quantity::kinetic}};
+inline constexpr Choice<Quantity> quantities[] = {
+    {"contact", Quantity::contact, "tables of grseg-stress"},
+    {"kinetic", Quantity::kinetic, "tables of grseg-kinetic"}};
 /// pressure: P = (lambda_1 + lambda_2)/2 (Staron & Phillips 2015, below eq. 1), half the trace; in
 /// three dimensions a third of it.
 enum class Component { yy, pressure };
 inline constexpr Choice<Component> components[] = {
-    {"yy", Component::yy}, {"pressure", Component::pressure, "half the trace"}};
+    {"yy", Component::yy, "normal to the base"},
+    {"pressure", Component::pressure, "half the trace"}};
 
 /// Which rows of the tables are points of the fit.
 struct FitFilters {
@@ -104,7 +106,7 @@ struct FitData {
   std::vector<std::size_t> flows = {};  // of each run (flows.hpp); empty: all are of one
   std::size_t still = 0;                // windows that add no observation, since nothing moved
   std::vector<std::string> tables;      // their names
-  SpeciesList species;                  // of the first; those of the others have the same names
+  SpeciesList species;                  // of the first table; names agree in all
   double window = 0;                    // s, the first one's length
   // Kinetic: species alone, nothing mixed, so every rule gives the same.
   std::vector<ContactSums<3>> rows = {};
@@ -140,9 +142,10 @@ struct FitTable {
 std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
                                       const std::vector<PartitionRule>& rules);
 
-/// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the windows
-/// of tables of one run and flow stand in line (runs_of_tables.hpp). phi is made of areas or volumes, or of masses (kinetic, where all species have
-/// one density). RunError, saying what removed them, where nothing is left.
+/// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the
+/// windows of tables of one run and flow stand in line (runs_of_tables.hpp). phi is made of areas
+/// or volumes, or of masses (kinetic, where all species have one density). RunError, saying what
+/// removed them, where nothing is left.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);
 

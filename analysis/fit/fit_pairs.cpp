@@ -37,7 +37,7 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
   return scaled;
 }
 
-/// Of all points together.
+/// The exponent of all points together, flows not told apart.
 Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
                          const FitSettings& settings, const Resampling& resampling)
 {
@@ -114,7 +114,7 @@ void take_mean(RuleFit& all, const std::vector<RuleFit>& flows)
     all.*place = mean_of(flows, [place](const RuleFit& fit) { return Measured{fit.*place}; }).value;
 }
 
-/// What limits the intervals of such means.
+/// Doubt about the interval of a mean over flows; "" where there is none.
 std::string doubt_of_mean(const RuleFit& all, const std::vector<RuleFit>& flows)
 {
   if (all.over == Population::equal_flows)

@@ -43,7 +43,8 @@ std::string flow_name(const FitReport& report, const RuleFit& fit)
   return report.flows.size() == 1 ? report.flows.front().name : "all";
 }
 
-/// The rule, with the pair of species where there are more than two, and the flow where there are several.
+/// The rule, with the pair of species where there are more than two, and the flow where there are
+/// several.
 std::string row_name(const FitReport& report, const RuleFit& fit)
 {
   auto name = rule_name(report, fit);
@@ -59,7 +60,7 @@ std::string share_words(const FitReport& report, std::size_t flow)
   return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
 }
 
-/// What each kind of interval in the report is over, in words.
+/// Populations of the intervals in the report, each with a sentence on it.
 std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
 {
   std::set<Population> used;
@@ -138,7 +139,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   add("autocorrelation_time[windows]", {fit.dependence.time});
   if (!of_first_rule) return;
   rule = "-";
-  // Of several flows together that of all grains is not known.
+  // Phi_L of several flows together is not known: tables do not hold the sizes of the beds.
   if (fit.flow || report.flows.size() == 1)
     add("Phi_L", {report.flows[fit.flow.value_or(0)].phi_large()});
   add("weight_share", {fit.flow ? report.shares[*fit.flow] : 1});
@@ -347,7 +348,7 @@ std::string rules_text(const FitReport& report)
   return with_words_outside(lines);
 }
 
-/// What the paper fits: sigma^S/sigma^L = s phi_S/phi_L, or k (phi_S/phi_L)^a.
+/// Coefficients of the paper's fits: sigma^S/sigma^L = s phi_S/phi_L, and k (phi_S/phi_L)^a.
 std::string paper_text(const FitReport& report)
 {
   if (!report.with_paper) return "";
@@ -406,7 +407,7 @@ std::string populations_text(const FitReport& report)
   return text;
 }
 
-/// What is known of all pairs together, each rule once.
+/// Numbers of all pairs together, each rule once: a matrix of B and the exponent of sizes.
 std::string pairs_text(const FitReport& report)
 {
   const auto& first = report.rules.front().pair;

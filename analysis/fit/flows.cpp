@@ -42,7 +42,8 @@ constexpr FlowLine flow_lines[] = {{"dimension", "", "dimension"},
                                    {"length", "[m]", "length of the cell"},
                                    {"length_z", "[m]", "length of the cell"}};
 
-/// Keys of a scene that make no other flow, and those that other lines or the composition tell.
+/// Keys of a scene that do not tell flows apart, or that other lines of the header or the
+/// composition repeat.
 constexpr std::string_view keys_left_out[] = {
     "seed",    "duration",       "frame-interval", "burst",   "keep-deposition", "compression",
     "store",   "small-diameter", "size-ratio",     "density", "friction",        "restitution",
@@ -56,8 +57,8 @@ bool holds(std::span<const std::string_view> list, std::string_view word)
   return std::ranges::find(list, word) != list.end();
 }
 
-/// What the line "# scene: KEY = VALUE; ..." of a table says that tells its flow from others; nothing
-/// where it has no such line.
+/// Keys and values of a table's line "# scene: KEY = VALUE; ..." that tell its flow from others;
+/// empty where the table has no such line.
 std::map<std::string, std::string> scene_of(const Table& table)
 {
   std::map<std::string, std::string> scene;
@@ -75,7 +76,7 @@ bool near(double a, double b, double tolerance)
   return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
 }
 
-/// The same names, and diameters that are near each other.
+/// True where names agree, and diameters up to the relative `tolerance`.
 bool same_species(const SpeciesList& a, const SpeciesList& b, double tolerance)
 {
   return !a.empty() && std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -178,7 +179,7 @@ std::vector<Flow> by_likeness(const std::vector<FitTable>& tables)
   return flows;
 }
 
-/// Of gravity to the normal of the base, degrees.
+/// Slope of the base: the angle between gravity and its normal, degrees.
 double slope_of(const Table& table)
 {
   return std::atan2(table.header_number("gravity_x"), -table.header_number("gravity_y")) * 180 /

@@ -15,7 +15,8 @@ struct Flow {
   std::string name;                 // "Phi_L = 0.06, slope = 21 degrees": what tells it from others
   std::vector<double> composition;  // each species' part of the grains' area, volume or mass
   std::vector<std::size_t> tables;  // numbers in the list of tables
-  // What flows differ in but for their composition: "slope[degree]" and "21", "initial" and "mixed".
+  // Settings in which flows differ, besides composition: "slope[degree]" and "21", "initial" and
+  // "mixed".
   std::vector<std::pair<std::string, std::string>> settings = {};
 
   double phi_large() const { return composition.back(); }
@@ -25,23 +26,23 @@ struct Flow {
 /// 0.001, because radii are drawn, and in cells of few hundred grains by a large one more or less.
 inline constexpr double composition_tolerance = 0.02;
 
-/// How far, relative to the larger one, their nominal diameters may lie apart. Of imported runs these
-/// are measured on the grains at hand, half-way between the smallest and the largest of a species:
-/// of n grains spread evenly over +-10 % that scatters by 0.14/n.
+/// How far, relative to the larger one, their nominal diameters may lie apart. Of imported runs
+/// these are measured on the grains at hand, half-way between the smallest and the largest of a
+/// species: of n grains spread evenly over +-10 % that scatters by 0.14/n.
 inline constexpr double diameter_tolerance = 0.01;
 
 /// How these tables are told apart, for the header of the fit; names what they record.
 std::string grouping_words(const std::string& grouping, const std::vector<Table>& tables);
 
-/// The flows of all tables, in order of Phi_L, and in each table which of them is its own.
+/// Finds the flows of all tables, in order of Phi_L, and sets in each table the number of its flow.
 ///
 /// grouping "auto": tables are of one flow where the lines of their headers agree that are about
 /// the flow (diameters, density, friction, restitution, gravity, step, length of the cell, species;
-/// numbers to 1e-6, diameters to diameter_tolerance) and so do their overall compositions, to composition_tolerance, and the keys of
-/// their scenes, where both state one (all but seed, times and storage: "initial", "base", "spread"
-/// ...). Another line that one table has and another lacks tells them apart. "4,4,2": the first four
-/// tables are of one flow, and so on; UsageError where these numbers do not add up to that of the
-/// tables.
+/// numbers to 1e-6, diameters to diameter_tolerance) and so do their overall compositions, to
+/// composition_tolerance, and the keys of their scenes, where both state one (all but seed, times
+/// and storage: "initial", "base", "spread" ...). Another line that one table has and another lacks
+/// tells them apart. "4,4,2": the first four tables are of one flow, and so on; UsageError where
+/// these numbers do not add up to the number of tables.
 std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& grouping);
 
 /// The part of `data` that is of one flow, as if it had been selected alone.

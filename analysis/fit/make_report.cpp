@@ -23,7 +23,9 @@ const std::vector<std::string> fit_words{"paper"};
 
 std::string rules_help()
 {
-  std::string text = "the large grain's share of a mixed contact; several rules give a row each.";
+  std::string text =
+      "the large grain's share of a mixed contact, one between a large and a small grain; each rule "
+      "gives a row.";
   for (const auto& rule : rule_definitions())
     text += fmt::format("\n{}{}{}{}: {}{}", rule.word, *rule.number == '\0' ? "" : ":", rule.number,
                         rule.kind == PartitionRule{}.kind ? " (default)" : "", rule.meaning,
@@ -31,6 +33,18 @@ std::string rules_help()
   text += "\nstock:";
   for (const auto& rule : parse_rules({"stock"})) text += fmt::format(" {}", rule.name());
   return text;
+}
+
+std::string over_help()
+{
+  std::string text =
+      "population of the intervals. A run is one simulation; a flow: runs that differ in their seed "
+      "alone; a window: a stretch of a run.";
+  for (const auto& [word, population, meaning] : populations)
+    text += fmt::format("\n{}: {}", word, meaning);
+  return text +
+         "\ndefault: windows of one run, or runs of one flow; for several flows a row for each over "
+         "its runs, then rows for all over flows";
 }
 
 void parse_ratio_range(const std::string& text, FitFilters& filters)
@@ -56,40 +70,38 @@ po::options_description FitOptions::description()
   };
   auto add = options.add_options();
   add("partition", words_option(partition, words_of_rules()), rules_help().c_str());
-  add("component", word_option(&component, words_of(components)), list_of(components).c_str());
+  add("component", word_option(&component, words_of(components)),
+      ("component of the stress: " + list_of(components)).c_str());
   add("quantity", word_option(&quantity, words_of(quantities)),
-      (list_of(quantities) + " stress").c_str());
+      ("stress to fit: " + list_of(quantities)).c_str());
   add("fit", word_option(&fit, fit_words),
-      "also what Staron & Phillips (2015) fit: the slope s of sigma^S/sigma^L over phi_S/phi_L, B of "
-      "it, and k (phi_S/phi_L)^a");
+      "paper: also the fits of Staron & Phillips (2015), sigma^S/sigma^L = s phi_S/phi_L, B from s, "
+      "and sigma^S/sigma^L = k (phi_S/phi_L)^a");
   add("base-part", word_option(&base, words_of(base_parts)),
-      ("part of contacts with base and walls: " + list_of(base_parts) +
+      ("part of a contact with the base or a wall that its grain gets: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
   add("pair", text(pair, "A,B"), "two of the species, by name or number (default: all pairs)");
   add("exponent", po::bool_switch(&exponent),
-      "also a of sigma^nu/sigma = phi^nu s^a/sum(phi s^a), s the diameters; of more than two "
-      "species always");
-  add("scan", text(scan, "p0:p1:dp"), "print B over the share p instead of the rules");
-  add("over", word_option(&over, words_of(populations)),
-      ("what intervals are over, in one row per rule: " + list_of(populations) +
-       " (default: windows of one run, runs of one flow; of several flows each over its runs, then "
-       "all over flows)")
-          .c_str());
+      "also the exponent a with which stress goes by grain size: sigma^nu/sigma = phi^nu s_nu^a/(sum "
+      "over mu of phi^mu s_mu^a), s_nu the diameter of species nu; for three species or more always");
+  add("scan", text(scan, "p0:p1:dp"),
+      "instead of rules, B at the shares p of every mixed contact from p0 to p1 in steps of dp");
+  add("over", word_option(&over, words_of(populations)), over_help().c_str());
   add("flows", text(flows, "N,N,...")->default_value("auto"),
-      "how many of the tables, in their order, are runs of each flow; auto: those that agree in "
-      "what they record of the flow and in overall composition");
+      "numbers of tables, in their order, that are of each flow; auto: tables are of one flow if "
+      "their headers and overall compositions agree");
   add("bootstrap", number(bootstrap, "N")->default_value(1000),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", number(seed, "N")->default_value(1), "seed of the samples");
   add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
-      "phi_S/phi_L of the layers that take part");
+      "range of phi_S/phi_L in layers that take part");
   add("heights", text(filters.heights, "y0:y1")->default_value(inside_the_bed),
       fmt::format("layers that take part: {}", heights_help).c_str());
   add("min-solid", number(filters.min_solid, "X")->default_value(0.5, "0.5"),
-      "least solid fraction of a layer, in units of the run's median");
-  add("begin", number(filters.begin, "s"), "first time of the windows that take part");
-  add("end", number(filters.end, "s"), "last time of the windows that take part");
+      "leave out layers whose solid fraction is less than X times the run's median");
+  add("begin", number(filters.begin, "s"), "leave out windows that begin before this time");
+  add("end", number(filters.end, "s"), "leave out windows that end after this time");
   add("json", po::bool_switch(&json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&quiet), "no remarks on standard error");
   output.add_to(options);
@@ -136,8 +148,7 @@ std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& specie
     throw UsageError(
         "the tables have one species, and B compares two; make them with --classes or --edges");
   if (!s.scan.empty() && species.size() > 2)
-    throw UsageError(
-        "--scan: p* is that of two species; merge the others with grseg-stress --group");
+    throw UsageError("--scan: p* compares two species; merge the others with grseg-stress --group");
   if (!s.pair.empty()) return {parse_pair(s.pair, species)};
   return all_pairs(species.size());
 }
@@ -171,7 +182,8 @@ void require_population(const FitOptions& s, const FitData& data)
                     s.over));
 }
 
-/// What the rows' intervals are over: "runs", or "runs, then flows" of flows one by one.
+/// Population of the rows' intervals: "runs"; "runs, then flows" where flows have rows of their
+/// own.
 std::string over_words(const FitReport& report)
 {
   const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, populations)); };

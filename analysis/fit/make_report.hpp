@@ -12,7 +12,7 @@
 
 namespace grseg {
 
-/// What the command line of grseg-fit says, mostly as typed.
+/// Options of grseg-fit, mostly as typed.
 struct FitOptions {
   std::vector<std::string> partition;
   std::string component = "yy", quantity = "contact";
@@ -28,8 +28,9 @@ struct FitOptions {
   void check(const po::variables_map& values);
 };
 
-/// All that grseg-fit prints of these tables, without the command at hand in its history. UsageError
-/// where the options and the tables do not fit each other, FormatError where a table lacks what is asked for.
+/// All that grseg-fit prints of these tables, without the command at hand in its history.
+/// UsageError where the options and the tables do not fit each other, FormatError where a table
+/// lacks what is asked for.
 FitReport make_report(const ToolInfo& info, const FitOptions& options, const std::string& preset,
                       const std::vector<Table>& tables);
 

@@ -17,8 +17,8 @@ void remove_b(RuleFit& fit)
   fit.B_over.fill({});
 }
 
-/// Errors over windows, over runs within flows and over runs about one function of composition;
-/// those that the fit is over become its intervals.
+/// Sets B over every population that the data allow, and the intervals of all estimators over the
+/// fit's own.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
                    const Bootstrap& bootstrap)
 {
@@ -59,7 +59,8 @@ Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& w
                                  influence_on(b, windows) - influence_on(b, by_size))};
 }
 
-/// Of the differences between flows, how many degrees of freedom the noise lacks.
+/// Degrees of freedom of the differences between flows that the fit of composition took out of the
+/// noise.
 double degrees_taken_by_composition(const FitData& data)
 {
   const auto flow_of_window = data.flows_of_windows();
@@ -69,7 +70,7 @@ double degrees_taken_by_composition(const FitData& data)
                                 numbers_of(data.samples, &LayerSample::weight_in_b), flow);
 }
 
-/// What limits the interval, mostly nothing.
+/// A sentence on what limits the interval, mostly "".
 std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows,
                      const Bootstrap& bootstrap)
 {
@@ -88,7 +89,7 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
     return fmt::format(
         "flows differ by more than one function of composition explains (Fisher's test: {:.2g}): "
         "over compositions the interval is too wide for these flows and too narrow for others; "
-        "see those over flows, equal-flows and random-flows",
+        "see the intervals over flows, equal-flows and random-flows",
         chance);
   }
   return doubt_of_flows(fit, errors.single_runs(), flows);
@@ -109,8 +110,8 @@ std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::siz
 {
   if (single_runs > 0)
     return fmt::format(
-        "{} of {} flows {} one run: the scatter of its windows stands for that of runs, which "
-        "is too narrow where runs differ",
+        "{} of {} flows {} one run: the scatter of its windows replaces the scatter of runs, and the "
+        "interval is too narrow if runs differ",
         single_runs, flows, single_runs == 1 ? "has" : "have");
   if (!(fit.degrees <= 3.5)) return {};
   return fmt::format(
@@ -167,7 +168,7 @@ std::vector<FitPoint> points_at(const FitData& data, double share, const FitSett
   return fit_points(data, {PartitionRule::Kind::uniform, share}, settings);
 }
 
-/// What B(p) follows from at one share.
+/// Sums by window at one share p, from which B(p) and its slope follow.
 struct AtShare {
   WindowSums value;       // psi_L - phi_L
   WindowSums derivative;  // d psi_L/dp in its place
@@ -203,8 +204,8 @@ double zero_of_b(const FitData& data, const FitSettings& settings)
 
 }  // namespace
 
-// With E the sum over frames of psi_L - phi_L, a window adds its part of E over -dE/dp to p*, and its
-// part of dE/dp over sum f phi_L phi_S to dB/dp.
+// With E the sum over frames of psi_L - phi_L, a window adds its part of E over -dE/dp to p*, and
+// its part of dE/dp over sum f phi_L phi_S to dB/dp.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
                               const Bootstrap& bootstrap, Population over)
 {

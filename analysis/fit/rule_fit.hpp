@@ -13,23 +13,23 @@
 
 namespace grseg {
 
-/// B over the share p that the large grain gets of every mixed contact. Of two species it is a straight
-/// line, B = dB_dp (p - p_zero), since sigma^L is linear in p and B in sigma^L. Where contacts are
-/// counted at the grains' centres (--assign grain) the whole stress of a layer depends on p, too, and
-/// the line is the tangent where B = 0.
+/// B over the share p that the large grain gets of every mixed contact. Of two species it is a
+/// straight line, B = dB_dp (p - p_zero), since sigma^L is linear in p and B in sigma^L. Where
+/// contacts are counted at the grains' centres (--assign grain) the whole stress of a layer depends
+/// on p, too, and the line is the tangent where B = 0.
 struct LineOverShare {
   Measured p_zero;  // p*, where B = 0
   Measured dB_dp;
 };
 
-/// What one partition rule makes of the data of two species. `share`, `neutral` and `line` are known
-/// only where there is no third one.
+/// The fit of one partition rule to the data of two species. `share`, `neutral` and `line` are
+/// known only where there is no third species.
 struct RuleFit {
   PartitionRule rule;
   std::size_t points = 0;                 // layers and windows
   double share = no_number;               // the p that gives this B (rule_fit.hpp); drop: NaN
   Population over = Population::windows;  // what the intervals of 95 % are over
-  std::optional<std::size_t> flow;        // number of the one that the fit is of; none: of all
+  std::optional<std::size_t> flow;        // number of its flow; none: of all flows
   std::size_t runs = 0;
   Estimators value, low, high, error;
   double degrees = no_number;  // of freedom of the interval of B
@@ -42,7 +42,7 @@ struct RuleFit {
   }
   LineOverShare line = {};  // whatever the fit's rule
   double neutral = no_number;
-  Measured minus_size = {};  // B less that of rule size, same samples
+  Measured minus_size = {};  // B less B by size, same samples
   Dependence dependence;
   std::string doubt;  // a sentence on the intervals, mostly empty
   SpeciesPair pair = {};
@@ -55,26 +55,26 @@ Dependence dependence(const FitData& data, const PartitionRule& rule, const FitS
 /// Gives an estimator its error and interval.
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error);
 
-/// What limits an interval over runs of several flows, of which some have a single one; mostly
-/// nothing.
+/// A sentence on what limits an interval over runs of several flows, some of which have a single
+/// run; mostly "".
 std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::size_t flows);
 
 /// Adds a sentence to the fit's doubt.
 void add_doubt(RuleFit& fit, const std::string& doubt);
 
-/// For `drop` every B is NaN: its partial stresses do not add up to the whole. `common`: where
-/// several fits are to share it; otherwise the dependence is that of the fit. Over equal or random
-/// flows the intervals are those over these flows: see fit_pairs.hpp.
+/// Fits one rule. For `drop` every B is NaN: its partial stresses do not add up to the whole.
+/// `common`: the dependence of windows that several fits share; otherwise the fit finds its own.
+/// fit_pairs.hpp makes the intervals over equal or random flows.
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
 
-/// The line of contact stress and two species, NaN of others; errors are over `over`, with windows as
-/// dependent as they are at p*.
+/// The line of contact stress and two species, NaN of others; errors are over `over`, with windows
+/// as dependent as they are at p*.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
                               const Bootstrap& bootstrap, Population over);
 
-/// The part of what B gains from p = 0 to 1 that it gains from p = 0 to `points`, those of some rule:
-/// the share of all mixed contacts that gives the same B.
+/// The uniform share p of all mixed contacts that gives the same B as `points`, which some rule
+/// made: (B - B at p = 0)/(B at p = 1 - B at p = 0).
 double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
                       const FitSettings& settings);
 

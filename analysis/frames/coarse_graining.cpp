@@ -17,7 +17,7 @@ constexpr std::size_t points = -lowest * points_per_unit + 1;
 // At the lowest, half a spacing from a point, what comes after them is 3e-18 of Phi.
 constexpr std::size_t terms = 11;
 
-/// Of the primitive of Phi, in powers of the distance from a point.
+/// Coefficients of the primitive of Phi, in powers of the distance from a point.
 using Series = std::array<double, terms>;
 
 long double density(long double u)
@@ -163,8 +163,8 @@ double piecewise_mean(double a, double b)
   return sum;
 }
 
-/// Whether a Gaussian changes so little from a to b, a the farther from 0, that three points are
-/// better than the difference of two primitives.
+/// True where a Gaussian changes so little from a to b that three points are more accurate than the
+/// difference of two primitives. a is farther from 0 than b.
 bool is_short(double a, double b)
 {
   return (b - a) * std::max(1.0, -a) < short_branch;

@@ -62,7 +62,7 @@ struct BedHeights {
       std::tuple(&BedHeights::large, &BedHeights::small, &BedHeights::bed);
 };
 
-/// Those of one frame; NaN for a species without mobile grains.
+/// Heights in one frame; NaN for a species without mobile grains.
 template <int D>
 BedHeights bed_heights(const Grains& grains, const Frame<D>& frame);
 

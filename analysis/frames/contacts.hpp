@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// Whether a contact bears a force at all. Files also list pairs that are only close.
+/// True where a contact bears a force. Files also list pairs that are only close.
 template <int D>
 bool bears_force(const ContactList<D>& contacts, std::size_t contact)
 {
@@ -19,8 +19,8 @@ bool bears_force(const ContactList<D>& contacts, std::size_t contact)
 }
 
 /// Normal and tangential part of a contact's force: f = f_n n + f_t t, n = branch/|branch|. f_n > 0
-/// in repulsion; exchanging the two grains of a contact changes neither part. In two dimensions t is
-/// n turned by +90 degrees; in three t is along the tangential force, and f_t >= 0.
+/// in repulsion; exchanging the two grains of a contact changes neither part. In two dimensions t
+/// is n turned by +90 degrees; in three t is along the tangential force, and f_t >= 0.
 template <int D>
 struct ForceParts {
   Vector<D> n;      // from j to i
@@ -48,9 +48,9 @@ Spin<D> no_spin()
 }
 
 /// Torques of the contacts on all grains, one entry per row of Grains, N m; counter-clockwise, in
-/// three dimensions right-handed about each axis. The force between two grains acts at
-/// r_i/(r_i + r_j) of the branch, so that the lever arms add up to the distance of the centres; at a
-/// straight wall the arm is r_i.
+/// three dimensions right-handed about each axis. The force between two grains acts at r_i/(r_i +
+/// r_j) of the branch, so that the lever arms add up to the distance of the centres; at a straight
+/// wall the arm is r_i.
 template <int D>
 std::vector<Spin<D>> torques_of(const Grains& grains, const ContactList<D>& contacts);
 

@@ -17,7 +17,7 @@
 namespace grseg {
 namespace {
 
-/// What --layer and --bins ask for, but for the cells of a map: these follow from the grains.
+/// Layers by --layer and --bins, without the cells of a map, which follow from the grains.
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
@@ -145,7 +145,7 @@ void FrameOptions::add_to(po::options_description& options, Makes makes)
 {
   auto add = options.add_options();
   add("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
-      "thickness of the layers: 4dS, 2dL, 20mm, or metres");
+      "thickness of the layers: 4dS, 2dL (diameters of small and large grains), 20mm, or metres");
   add("window", window_option(windows),
       "time to average over; windows that the run does not fill are left out. "
       "all: one window over all frames used");

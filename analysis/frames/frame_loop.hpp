@@ -48,11 +48,11 @@ struct FrameOptions {
   bool annuli() const { return bins.starts_with("radius"); }
   /// The plane of a map, where --bins names one.
   std::optional<MapPlane> map() const;
-  /// x and y of the axis about which bins lie, where --bins names one, or else that of the run's drum.
-  /// UsageError where it names neither a kind of bins nor an axis.
+  /// x and y of the axis about which bins lie: the one that --bins names, or else the axis of the
+  /// run's drum. UsageError where --bins names neither a kind of bins nor an axis.
   std::optional<Vec2> axis(const TrajectoryReader& run) const;
-  /// The same with the number of threads for 0, and the file of a part for that of the whole table.
-  /// UsageError where the output cannot be made, or not of what the options ask for.
+  /// These options with the number of threads in place of 0 and, with --part, the name of the
+  /// part's file as output. UsageError where the output cannot be made, or not with these options.
   FrameOptions checked(const po::variables_map& values) const;
 };
 
@@ -61,8 +61,8 @@ void refuse_options(const po::variables_map& values, const std::vector<const cha
                     const char* why);
 
 /// A run cut into layers, or the cells of a map, and windows. All tools use this class, so that
-/// their rows join on (t0, t1, y0, y1), those of maps on (t0, t1, x0, x1, y0, y1) or what their axes
-/// are. What is made of the sums goes to a table (table_writer.hpp).
+/// their rows join on (t0, t1, y0, y1), and rows of maps on (t0, t1, x0, x1, y0, y1) or their own
+/// axes. Results go to a table (table_writer.hpp).
 class FrameLoop {
  public:
   /// Opens the one run that the command line names. UsageError where it names none or several.
@@ -85,10 +85,12 @@ class FrameLoop {
   void require_forces(const char* what, const char* remedy) const;
   const Layers& layers() const { return layers_; }
   double window_length() const { return windows_.length; }  // s
-  /// Those to sum over: all, or those of --part; none with --join, whose rows other files have.
+  /// Windows to sum over: all, or the part that --part names; none with --join, whose rows other
+  /// files have.
   std::span<const Window> windows() const;
 
-  /// How often `sum` will be called for each window, for the progress that is shown; once, unless told.
+  /// How often `sum` will be called for each window, for the progress that is shown; once, unless
+  /// told.
   void expect_passes(int passes);
   void clear_progress() { progress_.clear(); }
 

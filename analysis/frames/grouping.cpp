@@ -105,8 +105,8 @@ std::vector<Size> sizes_of(const Grains& grains, int dimension)
   return sizes;
 }
 
-/// Diameters that divide the mobile grains into classes whose volumes are as equal as their sizes allow:
-/// each edge is the size that divides nearest to its share.
+/// Diameters that divide the mobile grains into classes whose volumes are as equal as their sizes
+/// allow: each edge is the size that divides nearest to its share.
 std::vector<double> edges_of_classes(const Grains& grains, int dimension, int classes)
 {
   const auto sizes = sizes_of(grains, dimension);

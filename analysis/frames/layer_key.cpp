@@ -187,8 +187,8 @@ void refuse_overlapping_rows(const Table& table, const std::vector<LayerKey>& ke
                                      ? bed_of.emplace(window, row)
                                      : layers.emplace(Span(key.bottom, key.top), row);
     if (!is_new)
-      throw FormatError(fmt::format("{}: row {} repeats a window and layer, those of row {}",
-                                    table.name, row + 1, place->second + 1));
+      throw FormatError(fmt::format("{}: row {} repeats the window and layer of row {}", table.name,
+                                    row + 1, place->second + 1));
   }
   refuse_overlaps(table, windows, "windows");
   for (const auto& [window, layers] : layers_of) {

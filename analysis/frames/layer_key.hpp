@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-/// Reading tables by layer and window, and refusing those that cannot be true.
+/// Reading tables by layer and window, and refusing tables that cannot be true.
 
 namespace grseg {
 
@@ -23,8 +23,8 @@ struct HeightRange {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
 
-  /// Whether a layer from `bottom` to `top` lies in the range, within rounding. True of the whole
-  /// bed, whose bottom and top are NaN.
+  /// True where a layer from `bottom` to `top` lies in the range, within rounding, and for the
+  /// whole bed, whose bottom and top are NaN.
   bool holds(double bottom, double top) const;
 };
 
@@ -42,22 +42,23 @@ double median_solid(const std::vector<LayerSolid>& layers);
 inline constexpr const char* inside_the_bed = "inside";
 /// For --help: what the option may be.
 inline constexpr const char* heights_help =
-    "inside (without 4 d_S at the base and 4 d_S under the surface), all, or y0:y1, e.g. 4dS:56dS or "
-    "4dS:";
-/// The same choice for the header of a table.
+    "inside (without 4 dS at the base and 4 dS under the surface), all, or y0:y1, e.g. 4dS:56dS or "
+    "4dS: (dS, dL: diameters of small and large grains)";
+/// A choice of --heights in words for the header of a table.
 std::string heights_in_words(const std::string& text);
 
 /// UsageError where the text is no such choice.
 void check_heights(const std::string& text);
 
-/// The range that --heights means for a bed of these layers. "inside": from 4 d_S above its lowest layer
-/// to 4 d_S below its surface, where it would end if it were as solid everywhere as its median layer; the
-/// lowest layer has in the mean at least half of that. A large grain at a base touches fixed ones alone,
-/// and at the surface few grains fall on each other: what is shared there is not what the bed shares.
+/// The range that --heights means for a bed of these layers. "inside": from 4 d_S above its lowest
+/// layer to 4 d_S below its surface, where it would end if it were as solid everywhere as its
+/// median layer; the lowest layer has in the mean at least half of that. A large grain at a base
+/// touches fixed ones alone, and at the surface few grains fall on each other: what is shared there
+/// is not what the bed shares.
 HeightRange parse_heights(const std::string& text, LengthUnits units,
                           const std::vector<LayerSolid>& layers);
 
-/// What every row by layer and window begins with, and what rows of different tools join on.
+/// First columns of every row by layer and window, on which rows of different tools join.
 struct LayerKey {
   double begin = 0, end = 0;   // s, of the window
   double bottom = 0, top = 0;  // m, of the layer; NaN: the whole bed
@@ -102,21 +103,23 @@ struct RowRange {
 
 /// 2, or the number in the line "dimension". FormatError where that is not 3.
 int dimension_of(const Table& table);
-/// The mobile species that a table is about: those of its line "species", or small and large with
-/// the diameters of the header. FormatError where they are not to be understood.
+/// The mobile species that a table is about: from its line "species", or small and large with the
+/// diameters of the header. FormatError where that line cannot be read.
 SpeciesList species_of(const Table& table);
 
-/// The first lines of a table that a tool makes of others (provenance.hpp): program, preset where the
-/// tool has them, history of all with `command` as its last line, inputs, and what was verified.
+/// The first lines of a table that a tool makes of others (provenance.hpp): program, preset where
+/// the tool has them, history of all with `command` as its last line, inputs, and what was
+/// verified.
 Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
                      const std::string& preset, const std::string& command);
 /// FormatError where a table is a map, whose rows are not of layers.
 void refuse_map(const Table& table);
 
-/// The keys of all rows. FormatError for a map, and, adding `remedy`, where a column is missing; and, naming the
-/// rows, where a time, number of frames or volume has no meaning (a bed of NaN heights may be
-/// empty), where two rows are of the same layer in the same window, and where windows or the layers
-/// of a window overlap; also where a length or time in the header is not positive.
+/// The keys of all rows. FormatError for a map, and, adding `remedy`, where a column is missing;
+/// and, naming the rows, where a time, number of frames or volume has no meaning (a bed of NaN
+/// heights may be empty), where two rows are of the same layer in the same window, and where
+/// windows or the layers of a window overlap; also where a length or time in the header is not
+/// positive.
 std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy);
 
 /// Column number of `name`, which is given with its unit as grseg writes it, "V[m^2]". FormatError

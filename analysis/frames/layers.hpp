@@ -23,9 +23,9 @@ double disc_area_within(double radius, double distance, double limit);
 double sphere_volume_below(double radius, double height);
 
 /// Layers parallel to the base: layer n is [n h, (n+1) h), of volume V = Lx h in two dimensions and
-/// Lx Lz h in three. The first also takes all that is below y = 0, and the last all that is above it.
-/// There are as many as the highest mobile grain reaches; the last one keeps its full thickness and
-/// volume.
+/// Lx Lz h in three. The first also takes all that is below y = 0, and the last all that is above
+/// it. There are as many as the highest mobile grain reaches; the last one keeps its full thickness
+/// and volume.
 ///
 /// Or annuli about an axis along z, as a drum asks for: y is then the distance from the axis,
 /// outward, and x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n
@@ -35,8 +35,8 @@ double sphere_volume_below(double radius, double height);
 /// cell, and y is what is across it. Nothing is shared between cells.
 class Layers {
  public:
-  /// Thickness h, and length Lx and, in three dimensions, width Lz of the cell, m. UsageError unless
-  /// they are positive.
+  /// Thickness h, and length Lx and, in three dimensions, width Lz of the cell, m. UsageError
+  /// unless they are positive.
   Layers(double thickness, double length, std::optional<double> width = std::nullopt)
       : Layers(thickness, length, width, Parallel{})
   {
@@ -45,7 +45,7 @@ class Layers {
   static Layers annuli(double thickness, double length, const Vec2& axis,
                        std::optional<double> width = std::nullopt);
   static Layers map(const MapGrid& cells, double length, std::optional<double> width);
-  /// The same with another thickness; not of a map.
+  /// These layers with another thickness; not for a map.
   Layers with_thickness(double thickness) const;
 
   /// x and y of the axis of annuli and of a map in the plane rz; else null.
@@ -72,7 +72,7 @@ class Layers {
   /// Components along and across the layer of a vector at `position`; that along z stays.
   template <int D>
   Vector<D> turned(const Vector<D>& vector, const Vector<D>& position) const;
-  /// The same of a spin: its number in two dimensions, a vector in three.
+  /// Components of a spin along and across the layer: in two dimensions its number stays.
   template <int D>
   Spin<D> turned_spin(const Spin<D>& spin, const Vector<D>& position) const
   {
@@ -108,14 +108,14 @@ class Layers {
   template <class Book>
   void share_segment(double from, double to, std::size_t count, const Book& book) const;
 
-  /// Calls book(layer, part) with the areas (m^2) of a disc or volumes (m^3) of a sphere at height y
-  /// that lie in each of `count` layers; they add up to that of the grain. Spheres not of
-  /// annuli, none of maps.
+  /// Calls book(layer, part) with the areas (m^2) of a disc or volumes (m^3) of a sphere at height
+  /// y that lie in each of `count` layers; they add up to the grain's area or volume. Not for
+  /// spheres in annuli, nor for maps.
   template <int D, class Book>
   void share_grain(double y, double radius, std::size_t count, const Book& book) const;
 
  private:
-  /// Of a grain at height y, the part below the top of a layer.
+  /// Part of a grain at height y that lies below the top of a layer, m^2 or m^3.
   template <int D>
   double part_below_top(std::size_t layer, double y, double radius) const
   {

@@ -69,7 +69,7 @@ struct MapGrid {
   MapPlane plane;
   std::array<MapAxis, 2> axes;
   double depth;                   // m, the length that is summed over; in the plane rz none
-  std::optional<Vec2> axis = {};  // x and y of that of rz
+  std::optional<Vec2> axis = {};  // x and y of the axis of rz
 
   std::size_t cells() const { return axes[0].cells * axes[1].cells; }
   std::size_t column(std::size_t cell) const { return cell % axes[0].cells; }

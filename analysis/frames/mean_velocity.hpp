@@ -38,28 +38,28 @@ struct LayerFlowSums {
 enum class MeanFlow {
   profile,  ///< a fine profile over height, over all frames; takes away m_i/M of each grain's
             ///< fluctuations, M being the mass that a bin of the profile holds over all frames
-  profile_unbiased,  ///< the same profile without the grain itself
+  profile_unbiased,  ///< this profile without the grain itself
   layer,    ///< the layer's mean over all frames; leaves the mean shear inside the layer in K_xx,
             ///< nu rho (du/dy h)^2/12
   instant,  ///< the layer's mean in each frame; leaves the same shear, takes away what the whole
             ///< layer does together and, of n equal grains, 1/n of the fluctuations
-  instant_unbiased,  ///< the same without that 1/n: kinetic_stress.hpp
+  instant_unbiased,  ///< as instant, without the loss of 1/n: kinetic_stress.hpp
   species,           ///< the layer's mean of each species over all frames
 };
 inline constexpr Choice<MeanFlow> mean_flows[] = {
     {"profile", MeanFlow::profile,
-     "over the window, in bins of at most half a dS, at the grain's own height"},
+     "over the window, at the grain's own height, from bins of at most dS/2"},
     {"profile-unbiased", MeanFlow::profile_unbiased,
-     "the same from all other grains, without the fluctuations that these give it: for windows of few "
+     "as profile, but from all other grains, and corrected for their scatter: for windows of few "
      "frames"},
-    {"layer", MeanFlow::layer, "over the window"},
-    {"instant", MeanFlow::instant, "of the layer in each frame"},
+    {"layer", MeanFlow::layer, "of the layer, over the window"},
+    {"instant", MeanFlow::instant, "of the layer, in each frame"},
     {"instant-unbiased", MeanFlow::instant_unbiased,
-     "the same, with each grain compared with two others at a time, so that it is not in the mean "
-     "from which it is counted"},
+     "as instant, but with each grain compared with pairs of others, so that it is not in its own "
+     "mean"},
     {"species", MeanFlow::species, "of the species in the layer, over the window"}};
 
-/// Components of a velocity, m/s, then those of a spin, rad/s: 3 or 6.
+/// Components of a velocity, m/s, then of a spin, rad/s: 3 or 6 numbers.
 template <int D>
 using Motion = Vector<D == 2 ? 3 : 6>;
 template <int D>
@@ -70,7 +70,7 @@ Motion<D> motion_of(const Vector<D>& velocity, const Spin<D>& spin)
   motion << velocity, spin;
   return motion;
 }
-/// Of grain g, with components along and across its layer.
+/// Motion of grain g, with components along and across its layer.
 template <int D>
 Motion<D> motion_of(const Layers& layers, const Frame<D>& frame, std::size_t g)
 {
@@ -121,19 +121,19 @@ class MeanVelocity {
 
   /// At height y; NaN without grains.
   Motion<D> on_profile(double y) const;
-  /// The profile at a grain that was added, from the others: its bin is left without it, and bins with
-  /// fewer than two others have no point. With a share a_j of V for each other grain, its
+  /// The profile at a grain that was added, from the others: its bin is left without it, and bins
+  /// with fewer than two others have no point. With a share a_j of V for each other grain, its
   /// covariance is sum a_j^2 var(v_j), which the scatter within a bin, sum m^2 e (x) e/(M^2 - Q),
   /// estimates (Q = sum m^2; e: from the line through the bin's mean with the slope between its
-  /// neighbours); so that of velocities about one linear profile that
-  /// are independent, (v_i - V) (x) (v_i - V) less the covariance has the variance of v_i, but for
-  /// terms of the order (m/M)^2. Nothing where there is no such point.
+  /// neighbours). Where velocities are independent about one linear profile, (v_i - V) (x) (v_i -
+  /// V) less the covariance then has the variance of v_i, but for terms of the order (m/M)^2.
+  /// Nothing where there is no such point.
   std::optional<MotionOfOthers<D>> on_profile_of_others(double y, double mass,
                                                         const Motion<D>& motion) const;
-  /// The part of a grain in the mean of its bin, by which the profile makes its fluctuations too small:
-  /// an upper bound, as straight lines mix two points.
+  /// The part of a grain in the mean of its bin, by which the profile makes its fluctuations too
+  /// small: an upper bound, as straight lines mix two points.
   double own_part(double y, double mass) const { return mass / of_bin_[bins_.at(y)].motion.mass; }
-  /// Of a layer, and of one species in it; of layers with grains that were added only.
+  /// Mean motion of a layer, and of one species in it. The layer must hold grains that were added.
   Motion<D> of_layer(std::size_t layer) const;
   Motion<D> of_species(std::size_t layer, Species species) const;
 

@@ -3,10 +3,10 @@
 
 #include "formats/cli/tool.hpp"
 
-/// What --preset sets in each tool: `paper` what Staron & Phillips (2015) did, as far as they say
-/// so, `rigorous` what conclusions should rest on. Options given on the command line take
-/// precedence. What both leave at its default is not listed here: layers of 4 dS, windows of
-/// 1.25 s, 0.01 <= phi_S/phi_L <= 100.
+/// Options that --preset sets in each tool: `paper` as Staron & Phillips (2015) did, as far as they
+/// say so, `rigorous` for results that conclusions rest on. Options given on the command line take
+/// precedence. Defaults that both presets keep are not listed: layers of 4 dS, windows of 1.25 s,
+/// 0.01 <= phi_S/phi_L <= 100.
 namespace grseg::presets {
 
 //   option, paper, rigorous; "": the tool's default

@@ -40,7 +40,8 @@ std::string unit_of(const std::string& column)
   return column.substr(std::min(column.find('['), column.size()));
 }
 
-/// True where both rows agree in the columns of one unit, up to a part of the largest number among them.
+/// True where both rows agree in the columns of one unit, up to a part of the largest number among
+/// them.
 bool agree(const std::vector<double>& a, const std::vector<double>& b,
            const std::vector<std::pair<std::size_t, std::size_t>>& columns)
 {
@@ -80,8 +81,8 @@ TableWindows windows_of(const Table& table)
   return windows;
 }
 
-/// True where rows of two tables hold the same numbers to the last bit beside their key, and more than
-/// layers without stress.
+/// True where rows of two tables hold the same numbers to the last bit beside their key, and more
+/// than layers without stress.
 bool same_bits(const Table& a, const Rows& rows_a, const Table& b, const Rows& rows_b)
 {
   if (rows_a.size() != rows_b.size()) return false;
@@ -95,8 +96,8 @@ bool same_bits(const Table& a, const Rows& rows_a, const Table& b, const Rows& r
   return numbers > 2;  // the two areas may be the same in layers that bear no stress
 }
 
-/// True where rows hold the same areas or volumes of grains and the same stress, up to a millionth, which
-/// is what single precision keeps: nothing has moved between them.
+/// True where rows hold the same areas or volumes of grains and the same stress, up to a millionth,
+/// which is what single precision keeps: nothing has moved between them.
 bool nothing_moved(const Table& a, const Rows& rows_a, const Table& b, const Rows& rows_b)
 {
   if (rows_a.size() != rows_b.size()) return false;
@@ -233,7 +234,7 @@ struct Compared {
   std::vector<RunSource> sources;
 };
 
-/// When a window of `a` begins that overlaps one of `b`. Those of one table do not overlap.
+/// Begin of a window of `a` that overlaps a window of `b`, s. Windows of one table do not overlap.
 std::optional<double> common_time(const TableWindows& a, const TableWindows& b)
 {
   auto one = a.rows.begin(), other = b.rows.begin();

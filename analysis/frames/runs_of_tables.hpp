@@ -30,8 +30,8 @@ struct WindowLine {
   std::size_t count = 0;            // of observations
   std::size_t still = 0;            // windows that add none, since nothing moved
 };
-/// In order of time. Windows that overlap, as those of a run and its repetition, are one observation, and
-/// so are windows between which nothing moved.
+/// Windows in order of time. Windows that overlap, as in a run and its repetition, are one
+/// observation, and so are windows between which nothing moved.
 WindowLine put_in_line(const std::vector<TableWindow>& windows);
 
 /// A run, as a table that is made of it describes it.
@@ -53,13 +53,13 @@ enum class Kinship {
   untold,       ///< nothing that is recorded tells
   same_grains,  ///< without a seed: one run, or several that began from one list of radii
   one_bed,      ///< one deposition, and so one run: the same grains, or a history that goes on
-  same_motion,  ///< the same in all that acts on the motion: at one time they hold the same
+  same_motion,  ///< equal in all that acts on the motion: at one time they hold the same grains in the same places
 };
 Kinship kinship(const RunSource& a, const RunSource& b);
 /// The closest of any of their runs.
 Kinship kinship(const std::vector<RunSource>& a, const std::vector<RunSource>& b);
 
-/// Which tables are of one run: those of one bed (runs_of_tables.hpp), such as a run and what continues it.
+/// Tables grouped by run. Tables of one bed are of one run, such as a run and what continues it.
 struct RunsOfTables {
   std::vector<std::size_t> run;     // of each table, its number in the order of their first tables
   std::vector<std::size_t> untold;  // tables of which nothing tells that their runs are different
@@ -70,9 +70,9 @@ struct RunsOfTables {
   std::string doubt(const std::vector<Table>& tables) const;
 };
 
-/// UsageError where two tables hold the same time of the same run, which would count twice: they are
-/// the same in all that acts on the motion and their windows overlap, or all rows of a window are the
-/// same in both to the last bit, whatever their inputs are called.
+/// UsageError where two tables hold the same time of the same run, which would count twice: they
+/// are the same in all that acts on the motion and their windows overlap, or all rows of a window
+/// are the same in both to the last bit, whatever their inputs are called.
 RunsOfTables find_runs(const std::vector<Table>& tables);
 
 }  // namespace grseg

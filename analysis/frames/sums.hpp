@@ -20,8 +20,8 @@ inline double ratio(double a, double b)
   return b > 0 ? a / b : no_number;
 }
 
-/// Adds sums to sums, place by place: structs that list their `members`, numbers and whatever has +=,
-/// arrays and vectors of them. A vector of layers grows to the length of the other.
+/// Adds sums to sums, place by place: structs that list their `members`, numbers and whatever has
+/// +=, arrays and vectors of them. A vector of layers grows to the length of the other.
 template <class Sums>
 void accumulate(Sums& sums, const Sums& others)
 {
@@ -89,7 +89,7 @@ List& add_all(List& list, const List& more)
   return list;
 }
 
-/// What `of`, a function or a member, says of each in a list.
+/// Results of `of`, a function or a member, for each in a list.
 template <class List, class Of>
 auto listed(const List& list, const Of& of)
 {

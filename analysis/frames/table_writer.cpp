@@ -29,7 +29,7 @@ std::string number_or_unknown(const Parameters& parameters, const char* key)
   return number && !std::isnan(*number) ? format_number(*number) : "unknown";
 }
 
-/// What the header says of annuli and maps.
+/// Header lines on annuli and maps.
 Header bins_lines(const Layers& layers)
 {
   const auto* axis = layers.axis();
@@ -57,7 +57,7 @@ std::string scene_in_one_line(const TrajectoryReader& run)
   return printable(text);
 }
 
-/// What the header says of the run: its grains, its gravity, its scene.
+/// Adds header lines on the run: its grains, gravity and scene.
 void add_lines_of_run(Header& header, const FrameLoop& loop, const Header& settings)
 {
   const auto& run = loop.run();
@@ -107,7 +107,7 @@ void require_memory(const FrameLoop& loop, std::size_t columns)
       threads > 1 ? " or fewer --threads" : ""));
 }
 
-/// What the header of a part of a table has more than that of the whole.
+/// The line that the header of a part has and the header of the whole table lacks.
 HeaderLine part_line(const OutputPart& part)
 {
   return {"part", part.text()};

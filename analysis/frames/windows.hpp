@@ -22,7 +22,7 @@ struct Window {
 /// The length of one window over all frames that are used.
 inline constexpr double all_frames = std::numeric_limits<double>::infinity();
 
-/// What part of a run is cut into windows, and how.
+/// The part of a run that is cut into windows, and their length.
 struct WindowSettings {
   double length = 1.25;              // s, or all_frames
   std::optional<double> begin = {};  // s; by default t = 0, or the first frame if that is later
@@ -43,8 +43,9 @@ struct RunTimes {
 };
 RunTimes times_of(const TrajectoryReader& run);
 
-/// How many steps a frame stands for at most: the longest time between two frames that is not a hole.
-/// It is at most that of the scene; where this is not known, two others are at least half as long.
+/// Most steps that a frame stands for: the longest time between two frames that is not a hole. It
+/// is at most the scene's interval; where this is not known, two other intervals are at least half
+/// as long.
 std::int64_t longest_interval(const RunTimes& run);
 
 /// Windows of one run, each `length` long (s).
@@ -54,14 +55,14 @@ struct Windows {
 };
 
 /// Window n holds the frames with n W <= t - begin < (n+1) W. Times are compared in whole steps, so
-/// that no rounding moves a frame into the next window; a length W that is not a whole number of steps
-/// is rounded to one. All frames of a window count alike, however close they are.
-/// A frame of the file stands for the time up to the next one, and at most for longest_interval().
-/// A window is dropped if the run does not fill it. Mostly this is the last one. A window that is filled
-/// begins less than longest_interval() before the first frame and ends within the time of the last one,
-/// and frames stand for at least nine tenths of it.
-/// RunError where nothing is left, UsageError where a window would be shorter than the time that a used
-/// frame stands for; both say what would fit.
+/// that no rounding moves a frame into the next window; a length W that is not a whole number of
+/// steps is rounded to one. All frames of a window count alike, however close they are. A frame of
+/// the file stands for the time up to the next one, and at most for longest_interval(). A window is
+/// dropped if the run does not fill it. Mostly this is the last one. A window that is filled begins
+/// less than longest_interval() before the first frame and ends within the time of the last one,
+/// and frames stand for at least nine tenths of it. RunError where nothing is left, UsageError
+/// where a window would be shorter than the time that a used frame stands for; both say what would
+/// fit.
 Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings);
 
 }  // namespace grseg

@@ -11,9 +11,9 @@ namespace grseg {
 
 /// Second moments of the directions of contacts and of their forces, sums over contacts. In two
 /// dimensions each is a weight times (cos 2 theta, sin 2 theta), theta the direction of the normal
-/// n, counter-clockwise from x, and the weight of the tangential force is f_t of ForceParts. In three
-/// they are the tensors n (x) n, f_n n (x) n and f_tangential (x) n. Exchanging the two grains of a
-/// contact changes none of them.
+/// n, counter-clockwise from x, and the weight of the tangential force is f_t of ForceParts. In
+/// three they are the tensors n (x) n, f_n n (x) n and f_tangential (x) n. Exchanging the two
+/// grains of a contact changes none of them.
 template <int D>
 struct FabricSums {
   static constexpr int dimension = D;
@@ -59,7 +59,7 @@ struct Anisotropy<2> {
 template <>
 struct Anisotropy<3> {
   Tensor3 c, n, t;
-  /// sqrt(3/2 a:a) of each, the sign that of a:sigma' with the stress of branches of one length.
+  /// sqrt(3/2 a:a) of each, with the sign of a:sigma' for the stress of branches of one length.
   double a_c, a_n, a_t;
 
   /// q/p for small anisotropies with the principal axes of the stress and branches of one length:
@@ -71,7 +71,7 @@ struct Anisotropy<3> {
 
 /// The anisotropies with the given moments, exactly: if E, f_n and f_t have the forms above, they
 /// are recovered, however large. `contacts` is the number of contacts, `force` the sum of their
-/// f_n, N. All NaN without contacts; those of the forces NaN where E is negative somewhere, in two
+/// f_n, N. All are NaN without contacts; a_n and a_t are NaN where E is negative somewhere, in two
 /// dimensions where a_c >= 1. A sample of N contacts in random directions has an a_c of about
 /// sqrt(pi/N) in two dimensions and 7.5/sqrt(N) in three.
 Anisotropy<2> anisotropy(const FabricSums<2>& sums, double contacts, double force);

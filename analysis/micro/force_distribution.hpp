@@ -38,8 +38,8 @@ class MeanNormalForce {
 
 /// By which mean of the same layer the normal force of a contact is divided.
 enum class ForceUnit {
-  layer,  ///< that of all contacts between mobile grains
-  type,   ///< that of the contacts of its own pair type
+  layer,  ///< mean over all contacts between mobile grains
+  type,   ///< mean over the contacts of its own pair type
 };
 inline constexpr Choice<ForceUnit> force_units[] = {{"layer", ForceUnit::layer},
                                                     {"type", ForceUnit::type}};

@@ -192,7 +192,7 @@ struct LayerForce {
   double contacts = 0, normal = 0;
 };
 
-/// What FabricSums adds.
+/// The tangential part of a force as FabricSums adds it: f_t, or in three dimensions a vector.
 template <int D>
 typename FabricSums<D>::Tangential tangential_part(const Vector<D>& force,
                                                    const ForceParts<D>& parts)

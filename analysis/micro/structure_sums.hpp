@@ -21,8 +21,8 @@ enum class ForceAverage {
   contacts,  ///< over the contacts with at least one such grain, each once (the paper's f_S, f_L)
   ends,      ///< over the contact ends on such grains: a contact between two of them counts twice
 };
-/// What the mean force of a species is taken of. The paper (Staron & Phillips 2015, section V)
-/// takes moduli over contacts.
+/// The force of a contact, and the average over contacts, that make the mean force of a species.
+/// The paper (Staron & Phillips 2015, section V) takes moduli over contacts.
 struct ForceMeasure {
   ContactForce force = ContactForce::modulus;
   ForceAverage average = ForceAverage::contacts;
@@ -49,7 +49,7 @@ struct PairSums {
 struct SpeciesSums {
   double content = 0;     // m^2 or m^3
   double grains = 0;      // with their centre in the layer
-  double ends = 0;        // all of them, those of base contacts included
+  double ends = 0;        // all of them, base contacts included
   double mixed_ends = 0;  // of contacts with a grain of the other species
   double base_ends = 0;   // of contacts with boundary grains and walls
 
@@ -78,7 +78,7 @@ struct StructureSums {
   /// Contacts between mobile grains: SS, LS and LL together.
   PairSums<D> between_grains() const;
 
-  /// Of all grains, m^2 or m^3.
+  /// Area or volume of all grains, m^2 or m^3.
   double content() const { return species[0].content + species[1].content; }
   /// phi_L by area or volume; NaN without grains.
   double phi_large() const;
@@ -130,7 +130,7 @@ class StructureByLayer {
   }
   void add_grains(const Grains& grains, const Frame<D>& frame);
   void add_contacts(const Grains& grains, const Frame<D>& frame);
-  /// Whether a contact slides, as 1 or 0; NaN where friction is unknown.
+  /// 1 where a contact slides, else 0; NaN where friction is unknown.
   double slides(double f_n, double f_t) const;
   static std::vector<Cell> cells(const StructureSums<D>& sums, const BedHeights& heights)
   {

@@ -251,7 +251,7 @@ void require_same_constants(const Table& first, const Table& other)
       refuse_difference(first, other, key);
 }
 
-/// The settings of the first table, and those of what is derived.
+/// Adds the settings of the first table, and the options of the derivation.
 void add_settings(Header& header, const Table& first, const DerivedOptions& options)
 {
   for (const auto& line : settings_of(first))
@@ -283,25 +283,25 @@ void DerivedOptions::add_to(po::options_description& options)
 {
   auto add = options.add_options();
   add("force", word_option(&force, words_of(force_words)),
-      "the force of a contact, modulus or normal (its normal part)");
+      "force of a contact: modulus, or normal (its normal part)");
   add("average", word_option(&average, words_of(average_words)),
-      "f_S and f_L are means over contacts (with at least one such grain, each counted once) or over "
-      "ends (contact ends on such grains)");
+      "means f_S and f_L of the force: over contacts (with at least one grain of the species, each "
+      "counted once) or over ends (contact ends on its grains)");
   const auto rules = list_of_words(known_rules());
   add("partition", word_option(&partition, known_rules()),
       ("the large grain's share of a mixed contact in P_S and P_L: " + rules).c_str());
   add("pool", word_option(&pool, words_of(pool_words)),
-      "which rows to merge: none, windows (each layer over all windows) or composition (layers by "
+      "rows to merge: none, windows (each layer over all windows) or composition (layers by "
       "phi_L)");
   add("depth", po::value(&depth)->value_name("LENGTH"),
-      "H of the pressure at H - y by which forces are divided (default: height of the bed)");
+      "forces are divided by the pressure at depth H - y; this is H (default: height of the bed)");
   add("heights", po::value(&heights)->value_name("y0:y1"),
       fmt::format("layers that take part: {} (default: inside of layers that are pooled by "
                   "composition, else all)",
                   heights_help)
           .c_str());
-  add("begin", time_option(begin), "no window that begins before this (default: all)");
-  add("end", time_option(end), "no window that ends after this (default: all)");
+  add("begin", time_option(begin), "leave out windows that begin before this time");
+  add("end", time_option(end), "leave out windows that end after this time");
 }
 
 void DerivedOptions::check() const

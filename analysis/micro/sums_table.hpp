@@ -34,10 +34,10 @@ struct RunConstants {
   double gravity_x, gravity_y;            // m/s^2
   double density, friction;               // kg/m^2 or kg/m^3, and 1; NaN where unknown
   double gravity_z = 0;                   // m/s^2, in three dimensions
-  double mean_density = density;  // of all grains, where `density` is that of the small ones
+  double mean_density = density;          // of all grains; `density` is of the small grains
 };
 
-/// Diameters are those of the two species, with --group of the groups. FormatError where a line is
+/// Diameters are of the two species, or with --group of the two groups. FormatError where a line is
 /// missing or its value is not a number; density and friction may be "unknown".
 RunConstants read_run_constants(const Table& table);
 /// FormatError, naming the place, where a column is missing or a number is not finite that must be.
@@ -65,7 +65,7 @@ enum class Pool {
 template <int D>
 std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
 
-/// What grseg-derive makes of sums, as given on the command line.
+/// Options of grseg-derive, as given on the command line.
 struct DerivedOptions {
   std::string force = "modulus", average = "contacts", partition = "size", pool = "none", depth,
               heights;
@@ -77,10 +77,10 @@ struct DerivedOptions {
   void check() const;
 };
 
-/// The quantities that follow from tables of grseg-micro (derived_quantities.hpp), with `provenance` as
-/// the first lines of its header and the settings of the first table behind it. UsageError where
-/// options have no meaning or tables of different grains are given together; RunError where no row is
-/// left.
+/// The quantities that follow from tables of grseg-micro (derived_quantities.hpp), with
+/// `provenance` as the first lines of its header and the settings of the first table behind it.
+/// UsageError where options have no meaning or tables of different grains are given together;
+/// RunError where no row is left.
 Table derived_table(const std::vector<Table>& tables, const DerivedOptions& options,
                     const Header& provenance);
 

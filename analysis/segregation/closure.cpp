@@ -17,7 +17,8 @@
 namespace grseg {
 namespace {
 
-// Beyond it the errors of both coefficients are over three times those of one alone.
+// Beyond this correlation the errors of both coefficients are over three times the error of one
+// alone.
 constexpr double collinear = 0.95;
 
 /// A number and what each window's noise adds to it.
@@ -28,7 +29,7 @@ struct Linear {
   std::vector<Linear> parts = {};  // of what it was combined
 };
 
-/// The worst of its own and of those of its parts, whose noises may hide each other's correlation.
+/// The worst dependence of `of` and its parts, whose noises may hide each other's correlation.
 Dependence dependence_of(const Linear& of, const RunLengths& runs)
 {
   auto how = dependence(of.influence, of.weight, runs);
@@ -183,7 +184,7 @@ class Report {
   {
     summary.numbers.emplace_back(name, Estimate{value});
   }
-  /// Of the errors of two numbers.
+  /// Correlation between the errors of two numbers.
   double correlation(const Linear& a, const Linear& b) const
   {
     if (bootstrap_.count() == 0) return no_number;
@@ -229,7 +230,8 @@ void add_collinearity(Report& report, const Regressions& regressions,
         r, factor));
 }
 
-/// What the kinetic terms and inertia add to B and d, and their sum.
+/// Adds the parts of tau_X and tau_G, by which kinetic terms and inertia change B and d, and
+/// returns their sums.
 std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
 {
   const auto add = [&](const char* name, double (*of)(const ClosurePoint&)) {
@@ -341,7 +343,7 @@ NamedNumbers closure_summary(const ClosureData& data, const std::vector<Partitio
   } else {
     report.summary.remarks.emplace_back(
         "kinetic terms and inertia are left out: the tables of grseg-segregation lack mass, mvv and "
-        "gain; make them anew with this version");
+        "gain; make them again with this version");
     add_rules(report, regressions, rules, flux, nullptr);
   }
   return report.summary;

@@ -17,8 +17,8 @@ struct ClosureResampling {
   unsigned long seed = 1;
 };
 
-/// Gray & Thornton's closure (closure_points.hpp) from the flux: weighted regression of q_L, the noisy
-/// one, on driving X and gradient G,
+/// Gray & Thornton's closure (closure_points.hpp) from the flux: weighted regression of q_L, the
+/// noisy one, on driving X and gradient G,
 ///
 ///   q_L = (B/c) X - (d/c) G
 ///
@@ -39,18 +39,18 @@ struct ClosureResampling {
 /// (d + tau_G)/c. Numbers with "kept" take them into account: c = (B(p) + tau_X)/(B/c).
 ///
 /// Numbers: B_over_c[s], d_over_c[m^2/s]; regressor_correlation (of X and G about 0, weighted),
-/// condition_number of the two in units of their lengths, error_factor (by how much the error of a
-/// coefficient exceeds what it were with the other known; the larger of the two), estimate_correlation;
+/// condition_number of the two in units of their lengths, error_factor (a coefficient's error over
+/// its error if the other were known; the larger of the two), estimate_correlation;
 /// D_displacements[m^2/s] of the same rows, to compare with d/c; stress_slope_over_weight, 1 where
 /// the two tables agree; tau_X and tau_G[m^2/s^2] with their parts; p_zero and dc_dp[1/s], and for
-/// each rule B@RULE, c@RULE[1/s], d@RULE[m^2/s^2] and those with kinetic terms kept. Intervals of
-/// 95 %: of one run moving blocks of windows are drawn, of several whole runs, all from one population,
+/// each rule B@RULE, c@RULE[1/s], d@RULE[m^2/s^2], also with kinetic terms kept. Intervals of 95 %:
+/// of one run moving blocks of windows are drawn, of several whole runs, all from one population,
 /// whatever their mixtures, unlike grseg-fit. They are linear in the noise of the flux at fixed
 /// regressors. NaN where there is no interval.
 NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
                              const ClosureResampling& resampling);
 
-/// What the intervals are over, of so many runs, as a sentence without its full stop.
+/// The population of the intervals for so many runs, as a sentence without its full stop.
 std::string closure_population(std::size_t runs);
 
 }  // namespace grseg

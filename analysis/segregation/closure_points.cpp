@@ -71,8 +71,8 @@ std::vector<RunTables> runs_of(const std::vector<Table>& tables)
   return runs;
 }
 
-/// Names a layer in a window. Kept tables have fewer digits, so that places are told apart to a power of
-/// ten of the order of 1/10000 of the window and the layer, 1e-6 s and m at most.
+/// Names a layer in a window. Kept tables have fewer digits, so that places are told apart to a
+/// power of ten of the order of 1/10000 of the window and the layer, 1e-6 s and m at most.
 using Place = std::tuple<long long, long long, long long, long long>;
 Place place_of(const LayerKey& key)
 {
@@ -85,7 +85,7 @@ Place place_of(const LayerKey& key)
           rounded(key.top, thickness)};
 }
 
-/// What a row of grseg-segregation says of a layer; NaN where the table lacks it.
+/// A layer in a row of grseg-segregation; NaN where the table lacks a column.
 struct LayerMotion {
   LayerKey key;
   double small = 0, large = 0;  // m^2 or m^3
@@ -183,7 +183,7 @@ double add_forces(ClosurePoint& point, const LayerMotion& here, const LayerMotio
   return fall;
 }
 
-/// Of the window before, that follows on this one without a gap.
+/// Adds driving and gradient of the window just before this one, if there is no gap between them.
 void add_window_before(ClosurePoint& point, const LayerMotion& here,
                        const std::map<Place, LayerMotion>& motions, double gravity)
 {
@@ -199,7 +199,7 @@ void add_window_before(ClosurePoint& point, const LayerMotion& here,
   point.gradient_before = found->second.gradient;
 }
 
-/// What a row of grseg-stress says of the same layer.
+/// The layer's contact stress in a row of grseg-stress.
 struct Stress {
   LayerKey key;
   ContactSums<3> sums;
@@ -326,7 +326,8 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
   }
 }
 
-/// Numbers the windows of all points, run after run; those of tables of one run stand in line.
+/// Numbers the windows of all points, run after run; windows of all tables of one run stand in
+/// line.
 void number_windows(const std::vector<TableWindow>& window_of_point,
                     const std::map<const Table*, std::size_t>& run_of, ClosureData& data)
 {

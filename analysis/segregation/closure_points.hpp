@@ -14,13 +14,13 @@
 
 namespace grseg {
 
-/// One layer in one window, as the closure of Gray & Thornton (2005) sees it. With f^L = sigma^L/sigma
-/// = phi_L (1 + B phi_S) and the interaction
+/// One layer in one window, as the closure of Gray & Thornton (2005) sees it. With f^L =
+/// sigma^L/sigma = phi_L (1 + B phi_S) and the interaction
 ///
 ///   beta^L = sigma df^L/dy - rho^L c (w_L - w) - rho d dphi_L/dy,     rho^L = phi_L rho
 ///
-/// the momentum balance of the large grains along y less phi_L times that of the mixture, over rho,
-/// is solved for the flux q_L = phi_L (w_L - w):
+/// the momentum balance of the large grains along y less phi_L times the mixture's balance, over
+/// rho, is solved for the flux q_L = phi_L (w_L - w):
 ///
 ///   c q_L = B X - d G + k_push + k_spread - a
 ///
@@ -31,10 +31,11 @@ namespace grseg {
 ///             where they are many to where they are few, as diffusion does
 ///   a         (rate^L - phi_L rate)/rho, inertia, m/s^2
 ///
-/// K and K_L: sum m v_y^2 over V of all and of large grains, in the frame of the base, psi_K = K_L/K;
-/// rate: change of momentum density over the window; ' = d/dy, from the two neighbouring layers. The
-/// balance of the mixture gives -sigma'/rho = -g_y + (K' + rate)/rho, with less noise than a
-/// difference of stresses. All terms hold inside the bed, where the base does not act. One density.
+/// K and K_L: sum m v_y^2 over V of all and of large grains, in the frame of the base, psi_K =
+/// K_L/K; rate: change of momentum density over the window; ' = d/dy, from the two neighbouring
+/// layers. The balance of the mixture gives -sigma'/rho = -g_y + (K' + rate)/rho, with less noise
+/// than a difference of stresses. All terms hold inside the bed, where the base does not act. One
+/// density.
 struct ClosurePoint {
   std::size_t window = 0;            // in the series of all windows, run after run
   double frames = 0;                 // of the window
@@ -46,9 +47,9 @@ struct ClosurePoint {
   double kinetic_push = no_number, kinetic_spread = no_number,
          inertia = no_number;       // m/s^2; NaN: not in the table
   double diffusivity = no_number;   // m^2/s, from displacements
-  double weight_above = no_number;  // -sigma' of the table of stress over that of the balance
-  // Of the table of stress: phi_L, phi_L phi_S, and psi_L - phi_L by rule; behind those of the rules stand
-  // the ones where large grains get nothing and all of mixed contacts.
+  double weight_above = no_number;  // -sigma' of the table of stress over -sigma' of the balance
+  // From the table of stress: phi_L, phi_L phi_S, and psi_L - phi_L by rule, followed by two more
+  // rules: shares 0 and 1 of mixed contacts.
   double phi_large = 0;
   double product = 0;
   std::vector<double> excess;
@@ -57,11 +58,11 @@ struct ClosurePoint {
 /// Instrumental variables of the regression (closure.hpp).
 enum class Instruments {
   previous,  ///< driving and gradient of the window before, on which this window's noise does not act
-  same,      ///< those of the same window: least squares
+  same,      ///< X and G of this window: least squares
 };
 inline constexpr Choice<Instruments> instrument_choices[] = {
     {"previous", Instruments::previous, "X and G of the window before"},
-    {"same", Instruments::same, "of the same window: least squares"}};
+    {"same", Instruments::same, "X and G of this window: least squares"}};
 
 /// Which layers and windows take part.
 struct ClosureFilter {
@@ -81,9 +82,9 @@ struct ClosureData {
 };
 
 /// Joins tables of grseg-segregation and grseg-stress, in any order, on the digest of their run and
-/// (t0, t1, y0, y1). FormatError where a column is missing or a number cannot be; UsageError, naming
-/// table and remedy, where a run lacks one of the two, has one twice, or where layers or windows of
-/// the two differ; RunError where no point is left.
+/// (t0, t1, y0, y1). FormatError where a column is missing or a number cannot be; UsageError,
+/// naming table and remedy, where a run lacks one of the two, has one twice, or where layers or
+/// windows of the two differ; RunError where no point is left.
 ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                          const ClosureFilter& filter);
 

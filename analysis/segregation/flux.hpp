@@ -41,7 +41,7 @@ struct LayerMomentum {
                     // the time in between; NaN of a single frame
 };
 
-/// What one window has to tell of one layer.
+/// Flux, diffusivity and their errors in one layer and window.
 struct SegregationResult {
   double content_small, content_large, mass;  // m^2 or m^3, kg, per frame; of grains by centre
   LayerFlow flow;
@@ -124,10 +124,10 @@ class SegregationFlux {
 
 /// Lacey's (1954) index of the composition by layer: (s_0^2 - s^2)/(s_0^2 - s_r^2), 0 where the
 /// species are separated and 1 where they are mixed at random. s^2 is the variance of phi_L over
-/// the layers about the bed's Phi_L, weighted by area or volume; s_0^2 = Phi_L Phi_S is that of
-/// separated species and s_r^2 = n Phi_L Phi_S (Phi_S a_L + Phi_L a_S)/A that of a random mixture
-/// (Stange 1954), for n layers, the area or volume A of all grains and a_S, a_L of one grain. Each
-/// grain belongs to the layer of its centre. NaN where a species is missing.
+/// the layers about the bed's Phi_L, weighted by area or volume; s_0^2 = Phi_L Phi_S is the
+/// variance of separated species and s_r^2 = n Phi_L Phi_S (Phi_S a_L + Phi_L a_S)/A the variance
+/// of a random mixture (Stange 1954), for n layers, the area or volume A of all grains and a_S, a_L
+/// of one grain. Each grain belongs to the layer of its centre. NaN where a species is missing.
 template <int D>
 double mixing_index(const Layers& layers, const Grains& grains, const Frame<D>& frame);
 

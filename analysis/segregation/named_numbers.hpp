@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// Numbers of a whole run under their names with units, and remarks on those that the run does not
-/// determine.
+/// Numbers of a whole run under their names with units, and remarks on numbers that the run does
+/// not determine.
 struct NamedNumbers {
   std::vector<std::pair<std::string, Estimate>> numbers;
   std::vector<std::string> remarks;

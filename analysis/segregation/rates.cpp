@@ -188,7 +188,7 @@ double advected(const LayerSegregation& layer)
   return layer.q_large + layer.D * layer.gradient;
 }
 
-/// Of the quotient a/b times `factor`.
+/// The quotient a/b times `factor`, with its interval.
 Estimate quotient(const Regression& a, const Regression& b, double factor)
 {
   const double value = factor * a.value[0] / b.value[0];

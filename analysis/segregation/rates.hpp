@@ -39,7 +39,7 @@ struct RateFilter {
 
   /// UsageError where they cannot be.
   void check() const;
-  /// What the header of a table says of them, and of the intervals.
+  /// Header lines on these settings and on the intervals.
   Header lines() const;
 };
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
@@ -73,8 +73,8 @@ class SegregationTable {
   void add(const Grains& grains, const SegregationSeries<D>& series,
            const SegregationFlux<D>& flux);
 
-  /// The columns of grseg-segregation from area_S or volume_S on, and the values of the last window: of
-  /// a layer, and of the whole bed, which are means over the frames of the window.
+  /// The columns of grseg-segregation from area_S or volume_S on, and the values of the last
+  /// window: of a layer, and of the whole bed, which are means over the frames of the window.
   static std::vector<std::string> columns();
   std::size_t layers() const { return results_.size(); }
   std::vector<double> row(std::size_t layer) const;

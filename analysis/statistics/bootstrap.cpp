@@ -14,8 +14,8 @@
 namespace grseg {
 namespace {
 
-// With fewer, the correlation time comes out too short now and then, and hides that there are too few
-// independent ones (docs/studies/uncertainty.md).
+// With fewer, the correlation time comes out too short now and then, and hides that there are too
+// few independent ones (docs/studies/uncertainty.md).
 constexpr std::size_t enough_windows = 120;
 
 using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;

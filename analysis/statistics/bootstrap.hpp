@@ -26,28 +26,31 @@ class Bootstrap {
   /// Row = sample, column = window: how often the window counts when blocks of `length`
   /// consecutive windows are drawn inside each run.
   const Eigen::MatrixXd& blocks(std::size_t length) const;
-  /// The same where whole runs are drawn; no rows for a single run.
+  /// Times that each window counts when whole runs are drawn, in the same layout; no rows for a
+  /// single run.
   const Eigen::MatrixXd& whole_runs() const;
 
-  /// Of several runs the samples and the interval of runs, drawn as one population, of a single one
-  /// those of windows: for the closure of segregation. grseg-fit tells mixtures apart (RunErrors).
+  /// Samples and interval for the closure of segregation: whole runs are drawn if there are
+  /// several, as one population, and blocks of windows if there is one. grseg-fit tells mixtures
+  /// apart (RunErrors).
   const Eigen::MatrixXd& samples(const Dependence& dependence) const;
   Estimate estimate(double value, const Eigen::VectorXd& samples,
                     const Dependence& dependence) const;
 
-  /// What the windows alone tell: value -+ t sqrt(V), with V the variance of the statistic over
-  /// samples of blocks(), times m/(m - R) for the means of R runs that were fitted (m = effective
-  /// windows/block), over the share of the variance that blocks of b windows of an AR(1) series
-  /// keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's quantile of m - R
-  /// degrees of freedom. NaN below least_degrees. With several runs it holds only if runs do not
-  /// differ.
+  /// Error by the windows alone. The interval is value -+ t sqrt(V), with V the variance of the
+  /// statistic over samples of blocks(), times m/(m - R) for the means of R runs that were fitted
+  /// (m = effective windows/block), over the share of the variance that blocks of b windows of an
+  /// AR(1) series keep at their cuts, 1 - 2 rho (1 - rho^b)/(b (1 - rho^2)); t is Student's
+  /// quantile of m - R degrees of freedom. NaN below least_degrees. With several runs it holds only
+  /// if runs do not differ.
   StandardError window_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
-  /// What several runs tell: the same with samples of whole_runs(), m = effective runs and m - 1
-  /// degrees of freedom. Each run is one observation, whatever goes on inside it.
+  /// Error by several runs: as window_error with samples of whole_runs(), m = effective runs and m
+  /// - 1 degrees of freedom. Each run is one observation, whatever happens inside it.
   StandardError run_error(const Eigen::VectorXd& samples, const Dependence& dependence) const;
 
   /// A sentence where an interval may say more than it knows, or far less: too few windows for
-  /// their correlation, in all or in each of several runs, two or three runs. Empty otherwise and for samples = 0.
+  /// their correlation, in all or in each of several runs, two or three runs. Empty otherwise and
+  /// for samples = 0.
   std::string doubt(const Dependence& dependence) const;
   std::string doubt_of_windows(const Dependence& dependence) const;
   std::string doubt_of_runs(const Dependence& dependence) const;

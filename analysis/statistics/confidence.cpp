@@ -128,8 +128,9 @@ double time_by_summing(const Correlation& correlation, double n)
   return time * (1 + (2 * static_cast<double>(lag) + 1) / n);
 }
 
-/// Of the AR(1) series with the same correlation of neighbours, freed of its bias -(1 + 3 rho)/n
-/// (Kendall 1954); the steadier of the two where windows are few.
+/// Autocorrelation time of the AR(1) series with this correlation of neighbours, freed of its bias
+/// -(1 + 3 rho)/n (Kendall 1954). Where windows are few it scatters less than the sum of
+/// correlations.
 double time_of_ar1(const Correlation& correlation, double n)
 {
   if (n < 4) return 1;

@@ -38,11 +38,11 @@ struct Measured {
   Estimate estimate() const { return error.around(value); }
 };
 
-/// Of a statistic whose deviation is the sum of `influence`, one entry per observation of one run
-/// in order of time, where `fitted` parameters were taken from the same n observations:
+/// Error of a statistic whose deviation is the sum of `influence`, one entry per observation of one
+/// run in order of time, where `fitted` parameters were taken from the same n observations:
 ///   error^2 = tau sum influence^2 / (1 - fitted tau/n),  degrees = n/tau - fitted,
-/// tau the integrated autocorrelation time of the influence (autocorrelation_time). NaN and 0 degrees below
-/// least_degrees.
+/// tau the integrated autocorrelation time of the influence (autocorrelation_time). NaN and 0
+/// degrees below least_degrees.
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
 
 /// Likewise, of observations that are independent but for a slow change, which is no error: from
@@ -52,24 +52,25 @@ StandardError error_about_trend(const Eigen::VectorXd& influence);
 
 /// Errors from whole runs: each is one observation, whatever goes on inside it.
 
-/// Of a statistic whose deviation is the sum of `influence`, one entry per run of one mixture, about
-/// what the run would add if it were like its mixture, which goes by `weight`: with R runs worth
-/// m = (sum W)^2/sum W^2 of equal weight,
+/// Error of a statistic whose deviation is the sum of `influence`, one entry per run of one
+/// mixture. A run like its mixture would have an influence in proportion to its `weight` W, and is
+/// compared with that. With R runs worth m = (sum W)^2/sum W^2 of equal weight,
 ///   error^2 = m/(m - 1) sum e^2,  e = influence - (sum influence) W/sum W,  degrees = m - 1.
 /// NaN and 0 degrees for a single run.
 StandardError scatter_of_runs(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight);
 
-/// Of a sum of independent parts: error^2 = sum of theirs, degrees by Satterthwaite (1946) with the
-/// fourth powers freed of their bias, which matters where parts have one degree each (Welch 1947):
+/// Error of a sum of independent parts: error^2 = sum of theirs, degrees by Satterthwaite (1946)
+/// with the fourth powers freed of their bias, which matters where parts have one degree each
+/// (Welch 1947):
 ///   degrees = error^4/sum(error_k^4/(degrees_k + 2)) - 2,
 /// not less than the least of the parts nor more than their sum. NaN where one part is unknown.
 StandardError added(const std::vector<StandardError>& parts);
 
-/// Of the unweighted mean of values that were drawn independently (Student 1908); n - 1 degrees.
+/// Error of the unweighted mean of independent values (Student 1908); n - 1 degrees.
 StandardError scatter_of_values(const Eigen::VectorXd& values);
 
-/// The unweighted mean of independent numbers: its error by theirs (`added`), the numbers being these
-/// very ones, and by their scatter (`scatter_of_values`), these being drawn from all.
+/// The unweighted mean of independent numbers: its error by theirs (`added`), the numbers being
+/// these very ones, and by their scatter (`scatter_of_values`), these being drawn from all.
 struct MeanOfEquals {
   double value;
   StandardError by_errors, by_scatter;
@@ -86,7 +87,7 @@ inline Eigen::Index index(std::size_t window)
   return static_cast<Eigen::Index>(window);
 }
 
-/// What `of`, a function or a member, says of each in a list.
+/// Results of `of`, a function or a member, for each in a list.
 template <class List, class Of>
 Eigen::VectorXd numbers_of(const List& list, const Of& of)
 {
@@ -121,12 +122,12 @@ double neighbour_correlation(double time);
 /// of freedom.
 std::size_t block_length(double time, const RunLengths& runs);
 
-/// Of `influence`, the windows' shares in the deviation of a statistic (they add up to 0), and
-/// their `weight` in it.
+/// Dependence of windows in a statistic. `influence`: the windows' shares in its deviation, which
+/// add up to 0; `weight`: their weight in it.
 Dependence dependence(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
                       const RunLengths& runs);
 
-/// Of each the part that leads to the wider interval.
+/// Part by part, the value of a or b that leads to the wider interval.
 Dependence worse(const Dependence& a, const Dependence& b);
 
 }  // namespace grseg

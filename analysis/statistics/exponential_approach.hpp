@@ -11,8 +11,8 @@ namespace grseg {
 /// y = end - (end - start) exp(-(x - x_0)/scale), x_0 the first x: the least-squares fit by
 /// Levenberg and Marquardt (GSL).
 ///
-/// Intervals allow for residuals that depend on each other over time (standard_error). That of the
-/// scale is the interval of the rate 1/scale turned over, and so is not symmetric.
+/// Intervals allow for residuals that depend on each other over time (standard_error). The scale's
+/// interval is the interval of the rate 1/scale turned over, and so is not symmetric.
 struct ExponentialApproach {
   Estimate start, end, scale;
   /// Why there are no numbers, as the predicate of a sentence; empty where there are. The numbers

@@ -22,8 +22,7 @@ enum class OwnSum {
 };
 constexpr std::size_t own_sums = 4;
 
-/// Sums over the contacts between two species, of which the larger is that of larger nominal
-/// diameter.
+/// Sums over the contacts between two species; the larger species has the larger nominal diameter.
 enum class PairSum {
   whole,          ///< the whole branch
   by_size,        ///< the larger grain's part by size
@@ -73,7 +72,7 @@ class ContactSums {
   {
     return own_[species][static_cast<std::size_t>(sum)];
   }
-  /// Of the pair `pair_index(a, b)`.
+  /// The sum of the pair `pair_index(a, b)`.
   Tensor<D>& of(PairSum sum, std::size_t pair)
   {
     return pair_[pair][static_cast<std::size_t>(sum)];
@@ -110,8 +109,8 @@ class ContactSums {
 /// Which tables of grseg-stress have a column.
 enum class InTables {
   all,
-  at_centres,  ///< those made with --assign grain
-  power,       ///< those made with --partition power:Q
+  at_centres,  ///< tables made with --assign grain
+  power,       ///< tables made with --partition power:Q
 };
 
 /// A sum whose components stand in columns, one group of columns for each species or pair.
@@ -137,7 +136,7 @@ inline constexpr std::array<ContactSumColumns, own_sums + pair_sums> contact_sum
     {"Mpower", "Mpower_{}+{}", true, static_cast<std::size_t>(PairSum::by_power), InTables::power},
 }};
 
-/// What a table of grseg-stress was made with, as far as it adds columns.
+/// Options of a table of grseg-stress that add columns.
 struct TableKind {
   int dimension = 2;
   bool at_centres = false, power = false;
@@ -180,8 +179,8 @@ std::vector<std::string> content_columns(const SpeciesList& species, int dimensi
 /// "n_SS", "n_LS", ... the numbers of contacts of each kind: contact_index.
 std::vector<std::string> contact_number_columns(const SpeciesList& species);
 
-/// The kind of a contact: between species a and b, a <= b, in the order SS, LS, LL; then those of
-/// each species with the base.
+/// Number of the kind of a contact: first contacts between species a <= b, in the order SS, LS, LL,
+/// then contacts of each species with the base.
 constexpr std::size_t contact_index(std::size_t a, std::size_t b)
 {
   return b * (b + 1) / 2 + a;

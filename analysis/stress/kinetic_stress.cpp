@@ -68,7 +68,7 @@ double moment_of_inertia(double mass, double radius)
   return inertia_factor<D> * mass * radius * radius;
 }
 
-/// Of one grain that moves by `excess` more than the mean.
+/// Fluctuations of one grain, which moves by `excess` more than the mean.
 template <int D>
 Fluctuations<D> fluctuations(double mass, double radius, const Motion<D>& excess)
 {

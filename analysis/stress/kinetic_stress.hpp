@@ -21,25 +21,25 @@ namespace grseg {
 /// Products of fluctuations in one frame (dv (x) dv of Staron & Phillips 2015, eq. 5) without the
 /// bias of a mean that holds the grain itself.
 ///
-/// V, the mean of n grains of masses m (M in all), moves with each of them, so that
-/// (v_i - V) (x) (v_i - V) falls short of the variance of v_i: of equal grains by the factor 1 - 1/n,
-/// else by 2 m_i/M less what the others make V fluctuate. Here a grain i of a cell (a layer or a cell
-/// of a map) has instead
+/// V, the mean of n grains of masses m (M in all), moves with each of them, so that (v_i - V) (x)
+/// (v_i - V) falls short of the variance of v_i: of equal grains by the factor 1 - 1/n, else by 2
+/// m_i/M less what the others make V fluctuate. Here a grain i of a cell (a layer or a cell of a
+/// map) has instead
 ///
 ///   (v_i - v_j) (x) (v_i - v_k), the mean over all j != k, weights m_j m_k, of the cell's others.
 ///
 /// Where velocities in a cell have a common mean and are independent, its expectation is the
 /// variance of v_i, whatever the masses and variances of i and of the others: j and k differ, so
-/// that no fluctuation but that of i is multiplied by itself. (With the mean of all others for both,
-/// the expectation has their variance in it; (v_i - V) (x) (v_i - V without i) has the variance
-/// of v_i where m var(v) is the same for all grains, and else an error of the order m_i/M.)
+/// that only the fluctuation of i is multiplied by itself. (With the mean of all others for both,
+/// the expectation has their variance in it; (v_i - V) (x) (v_i - V without i) has the variance of
+/// v_i where m var(v) is the same for all grains, and else an error of the order m_i/M.)
 ///
 /// With e = v - V and, over the cell, Q = sum m^2, R = sum m^2 e, P = sum m^2 e (x) e it equals
 ///
 ///   [(M^2 - Q) e_i (x) e_i + e_i (x) R + R (x) e_i - P] / [(M - m_i)^2 - Q + m_i^2].
 ///
-/// The sum over equal grains is n/(n - 1) times that about V. A grain needs two others; in a cell of
-/// one or two there is no product. What all grains of the cell do together is left out; a
+/// The sum over equal grains is n/(n - 1) times the sum about V. A grain needs two others; in a
+/// cell of one or two there is no product. What all grains of the cell do together is left out; a
 /// difference of mean velocity between them, such as shear, and correlations are not.
 template <int D>
 class UnbiasedFluctuations {
@@ -48,9 +48,9 @@ class UnbiasedFluctuations {
 
   UnbiasedFluctuations(const Layers& layers, const Grains& grains, const Frame<D>& frame);
 
-  /// Whether the cell holds three mobile grains or more.
+  /// True where the cell holds three mobile grains or more.
   bool has(std::size_t layer) const { return cells_[layer].grains > 2; }
-  /// Of a grain of the cell that moves so.
+  /// Product of fluctuations of a grain of the cell with this mass and motion.
   Product of(std::size_t layer, double mass, const Motion<D>& motion) const;
 
  private:
@@ -75,37 +75,36 @@ struct Fluctuations {
 
 /// Kinetic stress by layer and species, sigma^kappa = (1/V) sum m dv (x) dv (Staron & Phillips
 /// 2015, eq. 5), dv = velocity less a mean velocity (MeanFlow). A grain counts, whole, in the layer
-/// of its centre. J, not divided by V, means per frame. In annuli velocities are those along and
-/// across the layer, at the grain's centre.
+/// of its centre. J, not divided by V, means per frame. In annuli velocities have components along
+/// and across the layer, at the grain's centre.
 ///
-/// What the mean velocity of a layer adds to the sums about the profile is kept beside them,
-/// whatever the mean: layer bias = sum about the layer's mean - sum about the
-/// profile, by definition and exactly. Of a linear shear it is mass (du/dy h)^2/12 in xx, h the
-/// thickness of the layer, and nothing elsewhere. A map has neither profile nor bias.
+/// The layer bias is kept beside these sums, whatever the mean: sum about the layer's mean - sum
+/// about the profile, by definition and exactly. For a linear shear it is mass (du/dy h)^2/12 in
+/// xx, h the thickness of the layer, and nothing elsewhere. A map has neither profile nor bias.
 ///
 /// About MeanFlow::instant_unbiased a grain needs two others in its layer or cell and frame. Where
-/// there are fewer it counts in the mean flow but not in the sums, its mass and its number included,
-/// so that temperatures and ratios are those of the grains that count; `left_out` has the others. The
-/// same holds of MeanFlow::profile_unbiased where no bin of the profile has two others.
+/// there are fewer it counts in the mean flow but not in the sums, its mass and its number
+/// included, so that temperatures and ratios are of the grains that count; `left_out` has the
+/// others. About MeanFlow::profile_unbiased this holds where no bin of the profile has two others.
 ///
 /// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
 template <int D>
 class KineticStress {
  public:
   using Temperatures = Vector<D + 1>;
-  /// Of one species in one layer.
+  /// Sums of one species in one layer.
   struct Mean {
     double mass = 0;      // kg
     double content = 0;   // m^2 or m^3, area or volume
     double grains = 0;    // number
-    double left_out = 0;  // number: those that are too few for the mean; not among `grains`
+    double left_out = 0;  // number without enough others for a mean; not in `grains`
     double own_part = 0;  // kg: mass times MeanVelocity::own_part(); about MeanFlow::profile only
     Fluctuations<D> about_mean;
     Fluctuations<D> layer_bias;
 
-    /// Granular temperatures (dv_x^2, dv_y^2, dv_z^2 in three dimensions, k r^2 dw^2), mass-weighted
-    /// means, m^2/s^2; NaN without grains. Energies per grain and degree of freedom are half the
-    /// grain's mass times that; the spin of a sphere has three.
+    /// Granular temperatures (dv_x^2, dv_y^2, dv_z^2 in three dimensions, k r^2 dw^2),
+    /// mass-weighted means, m^2/s^2; NaN without grains. Energies per grain and degree of freedom
+    /// are half the grain's mass times that; the spin of a sphere has three.
     Temperatures temperature() const;
     static constexpr auto members =
         std::tuple(&Mean::mass, &Mean::content, &Mean::grains, &Mean::left_out, &Mean::own_part,
@@ -127,10 +126,10 @@ class KineticStress {
     return mean_velocity_.of_layer(layer).template head<D>();
   }
   LayerFlow flow(std::size_t layer) const;
-  /// Of two species: energy per large grain over energy per small grain in x, y, z and rotation: 1
-  /// for equipartition, the mass ratio where all fluctuate as fast. NaN unless both are there.
+  /// Energy per large grain over energy per small grain in x, y, z and rotation: 1 for
+  /// equipartition, the mass ratio where all fluctuate as fast. NaN unless both are there.
   Temperatures equipartition(std::size_t layer) const;
-  /// What the mean shear alone would make of the layer bias in xx, J: mass (du/dy h)^2/12.
+  /// The layer bias in xx that the mean shear alone makes, J: mass (du/dy h)^2/12.
   double shear_bias(std::size_t layer, Species species) const;
 
   /// The columns of grseg-kinetic from mass_S on with a layer's numbers, NaN without a layer.
@@ -156,8 +155,8 @@ enum class VelocityInStep { after, middle };
 inline constexpr Choice<VelocityInStep> velocities_in_step[] = {
     {"after", VelocityInStep::after, "at the end of the step, as stored"},
     {"middle", VelocityInStep::middle,
-     "half a step before: v - F h/(2 m), F the force on the grain, its weight included; of spins "
-     "likewise with the torques of the contacts"}};
+     "half a step before: v - F h/(2 m), F the force on the grain, its weight included; "
+     "spins likewise by the contacts' torques"}};
 
 /// Turns the velocities and spins of the mobile grains, those after a step of `step` s, into those
 /// in its middle, the means of before and after:
@@ -168,11 +167,12 @@ inline constexpr Choice<VelocityInStep> velocities_in_step[] = {
 template <int D>
 void to_middle_of_step(const Grains& grains, double step, bool turning, Frame<D>& frame);
 
-/// What the header of a table says of --velocity: the word, or "instant" of an imported run, whose frames
-/// have one velocity. UsageError where one was chosen of such a run.
+/// The line on --velocity in a table's header: the word, or "instant" for an imported run, whose
+/// frames have one velocity. UsageError where --velocity was given for such a run.
 std::string velocity_line(const TrajectoryReader& run, const std::string& word, bool chosen);
 
-/// Sums over frames with the velocities of one kind, made of those that frames hold.
+/// Sums over frames with velocities of one kind, which are made from the velocities that frames
+/// hold.
 template <int D, class Sums>
 struct AtVelocity {
   Sums sums;
@@ -195,28 +195,29 @@ template <int D>
 KineticStress<D> kinetic_stress(FrameLoop& loop, const Window& window, MeanFlow flow,
                                 VelocityInStep which, const MeanVelocity<D>& no_grains);
 
-/// What one looks at in the cell of a map: w, the third component of the mean velocity, in three
-/// dimensions; T, the granular temperature: the mean of dv^2 over the grains' mass and the D components.
+/// Fields in the cell of a map, for looking at: w, the third component of the mean velocity, in
+/// three dimensions; T, the granular temperature: the mean of dv^2 over the grains' mass and the D
+/// components.
 template <int D>
 std::vector<Cell> flow_fields(const Vector<D>& velocity,
                               const typename KineticStress<D>::Mean& all_species);
 
-/// The columns of grseg-kinetic with the numbers of a layer or cell, or their names without one. With
-/// contents, areas or volumes, where masses do not tell them because densities differ; of a map with
-/// flow_fields.
+/// The columns of grseg-kinetic with the numbers of a layer or cell, or their names without one.
+/// With contents, areas or volumes, where masses do not tell them because densities differ; of a
+/// map with flow_fields.
 template <int D>
 std::vector<Cell> kinetic_cells(const KineticStress<D>& stress, const SpeciesList& species,
                                 bool with_contents, bool map, std::optional<std::size_t> layer);
 
-/// What a reader of kinetic sums should know of the mean that they are counted from.
+/// Remarks for a reader of kinetic sums on the mean from which velocities are counted.
 class KineticRemarks {
  public:
-  /// Of a window of so many frames.
+  /// Adds a window of so many frames.
   template <int D>
   void add(const KineticStress<D>& stress, std::size_t species, std::size_t frames);
-  /// About the layer's mean (`about_layer`): how much of the fluctuations is shear inside the layers.
-  /// Where some grains are too few in their layer and frame for the mean: their number. And how much of
-  /// its own motion a grain finds in the mean profile, where it is not little.
+  /// About the layer's mean (`about_layer`): how much of the fluctuations is shear inside the
+  /// layers. Where some grains are too few in their layer and frame for the mean: their number. And
+  /// how much of its own motion a grain finds in the mean profile, where it is not little.
   std::vector<std::string> sentences(bool about_layer) const;
 
  private:

@@ -168,7 +168,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
     require_stress_table(table);
     require_same_settings(tables[0], table, all_windows);
   }
-  // Sums are made in an order that does not depend on that of the arguments.
+  // The order of the sums does not depend on the order of the arguments.
   std::ranges::stable_sort(tables, [](const Table& a, const Table& b) {
     return std::pair(header_values(a, "input"), a.to_text()) <
            std::pair(header_values(b, "input"), b.to_text());

@@ -225,16 +225,16 @@ constexpr Choice<AssignmentWord> assignments[] = {
 
 void ContactAssignmentOptions::add_to(po::options_description& options)
 {
-  const auto where = "the layer to which a contact counts: " + list_of(assignments);
+  const auto where = "layer in which a contact counts: " + list_of(assignments);
   options.add_options()("assign", word_option(&assign, words_of(assignments)), where.c_str());
-  options.add_options()("kernel-width",
-                        po::value(&width)->default_value(width)->value_name("LENGTH"),
-                        "of the kernel: standard deviation of gauss, half the support of lucy and "
-                        "heaviside");
+  options.add_options()(
+      "kernel-width", po::value(&width)->default_value(width)->value_name("LENGTH"),
+      "width of the kernel: standard deviation of gauss, half the support of lucy "
+      "and heaviside");
   options.add_options()("composition", word_option(&composition, words_of(grain_areas)),
-                        "a grain's area is clipped at the layers' edges (default), counted whole "
-                        "at its centre, or spread from there by the kernel (default where there "
-                        "is one): clipped, centre or kernel. In maps centre");
+                        "a grain's area in the layers: clipped at their edges (default), whole at "
+                        "its centre (centre; always in maps), or spread from there by the kernel "
+                        "(kernel; default with a kernel)");
 }
 
 ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values,

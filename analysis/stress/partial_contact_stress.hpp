@@ -26,29 +26,29 @@ enum class Assignment {
 };
 
 /// Contact stress by layer: sigma = (1/V) sum force (x) branch (Rothenburg & Selvadurai 1981;
-/// Staron & Phillips 2015, eq. 1), kept apart by species and pair of species, so that every rule of partition is
-/// algebra on these sums (partial_stress.hpp). N m, compression positive, not divided by V, means
-/// per frame.
+/// Staron & Phillips 2015, eq. 1), kept apart by species and pair of species, so that every rule of
+/// partition is algebra on these sums (partial_stress.hpp). N m, compression positive, not divided
+/// by V, means per frame.
 ///
 /// Only contacts that carry a force count, in n_* too. In annuli components are those along and
 /// across the layer where the grains touch, and `branch` and `kernel` do not apply; nor do they to
 /// maps.
 ///
 /// `branch` and `kernel` spread what belongs to one grain along its own stretch of the branch: the
-/// larger grain's part of a mixed contact (by_size, up_to_contact) along that from its centre to
-/// r_L/(r_L + r_S) of the branch or to the contact point, base along that from the grain's centre
-/// to the contact point (the boundary rule of Weinhart et al. 2012). by_power is a weight times
-/// the whole branch's share of the layer. Under a kernel a row is the integral of the field over
-/// the layer: sum/V is the field's mean there.
+/// larger grain's part of a mixed contact (by_size, up_to_contact) from its centre to r_L/(r_L +
+/// r_S) of the branch or to the contact point, base from the grain's centre to the contact point
+/// (the boundary rule of Weinhart et al. 2012). by_power is a weight times the whole branch's share
+/// of the layer. Under a kernel a row is the integral of the field over the layer: sum/V is the
+/// field's mean there.
 ///
 /// `grain` counts either grain's part of equal grains (cut at the contact point) and of mixed ones
 /// (cut by size, so that `whole` less `by_size` is the smaller grain's part, at its centre) in the
-/// layer of that grain; up_to_contact and by_power in that of the larger grain; halves,
+/// layer of that grain; up_to_contact and by_power in the layer of the larger grain; halves,
 /// at_larger and at_smaller are for rules whose share is the same for all contacts.
 template <int D>
 class PartialContactStress {
  public:
-  /// Of one layer.
+  /// Sums of one layer.
   struct Mean {
     std::vector<double> contacts;  // by contact_index, in the layer of the contact point
     ContactSums<D> sums;           // without volume and contents; at the centres only with
@@ -87,7 +87,7 @@ class PartialContactStress {
     double y;           // m
     std::size_t layer;  // with Assignment::grain
   };
-  /// What all stretches of a contact share.
+  /// Properties common to all stretches of a contact.
   struct Contact {
     Tensor<D> stress;   // N m, force (x) branch
     std::size_t layer;  // of the contact point
@@ -149,7 +149,8 @@ struct ContactAssignmentOptions {
                                        const std::string& otherwise = "clipped");
   /// UsageError where it spreads over layers what annuli or the cells of a map do not share.
   void require_bins(const ContactAssignment& chosen, const FrameOptions& frames) const;
-  /// The kernel of `contact_assignment`, if it has one; UsageError where --kernel-width is not a length.
+  /// The kernel of `contact_assignment`, if it has one; UsageError where --kernel-width is not a
+  /// length.
   std::optional<Kernel> kernel(const ContactAssignment& chosen, const LengthUnits& units) const;
 };
 

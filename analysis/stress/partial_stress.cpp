@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-/// What contacts between mobile grains give to the species, N m, and what they give to nobody.
+/// Parts of the contacts between mobile grains, N m: the species' parts, and the part of nobody.
 template <int D>
 struct Shares {
   std::vector<Tensor<D>> of_species;
@@ -152,7 +152,7 @@ InTables tables_with(PairSum sum)
       ->in;
 }
 
-/// Whether the sum is that of a rule which is not among `rules`: older tables may lack it.
+/// True where only rules that are not among `rules` need the sum: older tables may lack it.
 bool is_of_other_rule(const ContactSumColumns& columns, const std::vector<PartitionRule>& rules)
 {
   if (!columns.of_pairs) return false;
@@ -183,7 +183,7 @@ ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<Parti
     const bool same_for_all = definition.share != nullptr && !definition.sum;
     if (same_for_all && !at_centres_ && is_at_centres()) {
       add_columns(InTables::at_centres, rules,
-                  "make the table anew with grseg-stress --assign grain");
+                  "make the table again with grseg-stress --assign grain");
       at_centres_ = true;
     }
     if (!definition.sum || tables_with(*definition.sum) != InTables::power) continue;

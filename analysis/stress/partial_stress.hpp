@@ -15,7 +15,7 @@
 
 namespace grseg {
 
-/// What a contact with the base or a wall gives to the species of its mobile grain.
+/// The part of a contact with the base or a wall that its mobile grain's species gets.
 enum class BasePart {
   contact_point,  ///< the branch from the grain's centre to the contact point
   half,           ///< half the whole branch (LAMMPS and LIGGGHTS)
@@ -25,8 +25,8 @@ inline constexpr Choice<BasePart> base_parts[] = {
     {"contact-point", BasePart::contact_point}, {"half", BasePart::half}, {"none", BasePart::none}};
 
 enum class StressVolume {
-  bulk,   ///< of the layer, with voids
-  solid,  ///< of the mobile grains in it
+  bulk,   ///< volume of the layer, with voids
+  solid,  ///< volume of the mobile grains in it
 };
 inline constexpr Choice<StressVolume> stress_volumes[] = {
     {"bulk", StressVolume::bulk, "V"}, {"solid", StressVolume::solid, "area_S + area_L"}};
@@ -45,10 +45,10 @@ struct PartialStress {
 /// Staron & Phillips (2015), eq. 1, parted between the species:
 ///   sigma^L = (A_LL + share + base_L)/V,  sigma^S = (A_SS + M - share + base_S)/V,
 /// `share` being the rule's part of the mixed contacts' sum M; by `size` that is the prefactor
-/// d_L/(d_L + d_S) in the text below eq. 1. Of more species each has such shares of its contacts with
-/// every other one. Of parts counted at the grains' centres half and
-/// uniform:P take P ML and (1 - P) MS, and of equal grains half at either; half is then compute
-/// stress/atom, summed by species and layer.
+/// d_L/(d_L + d_S) in the text below eq. 1. Of more species each has such shares of its contacts
+/// with every other one. Of parts counted at the grains' centres half and uniform:P take P ML and
+/// (1 - P) MS, and of equal grains half at either; half is then compute stress/atom, summed by
+/// species and layer.
 template <int D>
 PartialStress<D> partial_stress(const ContactSums<D>& sums, const PartitionRule& rule,
                                 BasePart base = BasePart::contact_point,
@@ -61,18 +61,18 @@ struct MapStress {
   StressVolume volume = StressVolume::bulk;
 };
 
-/// What one looks at in the cell of a map. nu, the solid fraction; phi_L, or phi_NAME of each species
-/// where they are not two; pressure, the mean of the normal components; sigma_yy; stress_ratio =
-/// -sigma_xy/sigma_yy, the friction of a flow along x. Where a cell is empty sums and densities are 0,
-/// and what is divided by them is NaN.
+/// Fields in the cell of a map, for looking at: nu, the solid fraction; phi_L, or phi_NAME of each
+/// species where they are not two; pressure, the mean of the normal components; sigma_yy;
+/// stress_ratio = -sigma_xy/sigma_yy, the friction of a flow along x. Where a cell is empty sums
+/// and densities are 0, and quotients by them are NaN.
 template <int D>
 std::vector<Cell> stress_fields(const ContactSums<D>& sums, const SpeciesList& species,
                                 const MapStress& how);
 
-/// Reads the rows of a table of grseg-stress as ContactSums of its species; those of a table in two
-/// dimensions have zeros in z. FormatError, naming the column and how to get it, where one is missing
-/// that `rules` need, where a number is not finite, or where an area or volume of grains is negative.
-/// Components whose columns the table's line "not kept" names are NaN.
+/// Reads the rows of a table of grseg-stress as ContactSums of its species, with zeros in z if the
+/// table is of two dimensions. FormatError, naming the column and how to get it, where one is
+/// missing that `rules` need, where a number is not finite, or where an area or volume of grains is
+/// negative. Components whose columns the table's line "not kept" names are NaN.
 class ContactSumsReader {
  public:
   ContactSumsReader(const Table& table, const std::vector<PartitionRule>& rules);

@@ -25,7 +25,7 @@ constexpr RuleDefinition definitions[] = {
     // Staron & Phillips (2015), prefactors d_L/(d_L + d_S) and d_S/(d_L + d_S) below eq. 1
     {.kind = Kind::size,
      .word = "size",
-     .meaning = "r_L/(r_L + r_S) of the actual radii; of nominal ones: --preset paper",
+     .meaning = "r_L/(r_L + r_S) of the actual radii (nominal radii, 2 to 1: uniform:0.66667)",
      .share = [](const MixedContact& contact,
                  double) { return contact.r_large / (contact.r_large + contact.r_small); },
      .sum = PairSum::by_size,

@@ -40,9 +40,8 @@ struct MixedContact {
   double up_to_contact;     // share of the branch between the large grain's centre and the contact
 };
 
-/// All there is to know about one kind of rule. Parsing, --help, "stock", used_by, the columns that
-/// a table must have, the stresses and the neutral B follow from the table of these in
-/// partition_rule.cpp.
+/// Definition of one kind of rule. Parsing, --help, "stock", used_by, the columns that a table must
+/// have, the stresses and the neutral B follow from the table of these in partition_rule.cpp.
 struct RuleDefinition {
   PartitionRule::Kind kind;
   const char* word;     // as typed
@@ -50,11 +49,11 @@ struct RuleDefinition {
   /// The larger grain's share of a contact, `number` being what follows the word; null: the stress
   /// of mixed contacts belongs to nobody.
   double (*share)(const MixedContact& contact, double number);
-  /// Where the share differs from contact to contact: the sum of the large grains' parts. Null: the
-  /// share is the same for all contacts, and needs no sum but that of the whole branches.
+  /// Sum of the large grains' parts, where the share differs from contact to contact. Null: the
+  /// share is the same for all contacts, and needs only the sum of the whole branches.
   std::optional<PairSum> sum = {};
-  /// That sum along layers: over the large grain's own stretch of the branch, beginning at its
-  /// centre, or over all of the branch.
+  /// True where this sum is spread over layers along the large grain's own stretch of the branch,
+  /// which begins at its centre; else it is spread along the whole branch.
   bool along_own_stretch = false;
   const char* used_by = "";  // the codes that have this rule, "": none known
   bool stock = false;        // part of --partition stock
@@ -78,7 +77,7 @@ std::span<const RuleDefinition> rule_definitions();
 /// "size, contact-point, ..., uniform:P and power:Q", with any other word for "and".
 std::string list_of_rules(const std::string& conjunction = "and");
 
-/// These words, of all rules or of those that are wanted; and with "stock", for parse_rules.
+/// Words of all rules, or of the `wanted` ones; words_of_rules() adds "stock", for parse_rules.
 std::vector<std::string> words_of_rule(bool (*wanted)(const RuleDefinition&) = nullptr);
 std::vector<std::string> words_of_rules();
 
@@ -105,9 +104,10 @@ template <int D>
 ContactShares contact_shares(const Grains& grains, const Frame<D>& frame, std::size_t contact,
                              const PartitionRule& rule);
 
-/// The neutral model: contacts that ignore grain size. Contact ends are in proportion to the grains'
-/// perimeter, they pair at random, and the mean force is the same for all pairs. Whatever it gives
-/// is geometry; a measured departure from it is not. Grains have their nominal sizes, r = d_L/d_S.
+/// The neutral model: contacts that ignore grain size. Contact ends are in proportion to the
+/// grains' perimeter, they pair at random, and the mean force is the same for all pairs. Whatever
+/// it gives is geometry; a measured departure from it is not. Grains have their nominal sizes, r =
+/// d_L/d_S.
 
 /// Share of the contact ends that large grains have: x_L = phi_L/(phi_L + r phi_S).
 double neutral_ends_of_large(double phi_large, double size_ratio);

@@ -40,7 +40,8 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   auto add = options.add_options();
-  const auto rules = "rules for c, " + list_of_rules() + ", or stock (default)";
+  const auto rules =
+      "partition rules under which c is printed: " + list_of_rules() + ", or stock (default)";
   add("partition", words_option(s.partition, words_of_rules()), rules.c_str());
   const auto instruments =
       "instrumental variables of the regression: " + list_of(instrument_choices);
@@ -53,15 +54,15 @@ po::options_description options_into(Settings& s)
       fmt::format("layers that take part: {}", heights_help).c_str());
   add("min-solid", po::value(&s.filter.min_solid)->default_value(0.5, "0.5")->value_name("X"),
       "leave out layers whose solid fraction is less than X times the median");
-  add("begin", time_option(s.begin), "no window that begins before this (default: all)");
-  add("end", time_option(s.end), "no window that ends after this (default: all)");
+  add("begin", time_option(s.begin), "leave out windows that begin before this time");
+  add("end", time_option(s.end), "leave out windows that end after this time");
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&s.quiet), "no remarks");
   s.output.add_to(options);
   return options;
 }
 
-/// What cannot be meant, before any table is read.
+/// Refuses options that cannot be meant, before any table is read.
 void check(const Settings& s, const po::variables_map& values)
 {
   if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))

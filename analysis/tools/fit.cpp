@@ -31,7 +31,10 @@ constexpr ToolInfo info{
     "  grseg-fit phi*/*.tsv --over equal-flows          one number, each flow counting the same\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
-    "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n",
+    "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n"
+    "\nLarge grains bear the share psi_L = phi_L (1 + B phi_S) of the stress, where phi_L and phi_S are\n"
+    "the species' shares of the grains' area or volume. B > 0: large grains bear more than phi_L.\n"
+    "Tables are of grseg-stress or, with --quantity kinetic, of grseg-kinetic.\n",
     presets::fit};
 
 /// Lengths may have been given in diameters, which are known to a tolerance.

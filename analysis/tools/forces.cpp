@@ -30,8 +30,8 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("unit", word_option(&s.unit, words_of(force_units)),
-      "<f_n> is the mean over all contacts between grains of a layer, or over those of the same pair "
-      "type (type)");
+      "contacts whose mean is <f_n>: all between grains in the layer (layer), or only contacts of the "
+      "same pair type, such as LS (type)");
   add("bin", po::value(&s.bin)->default_value(s.bin, "0.1")->value_name("X"),
       "width of the 100 bins below the open one");
   s.frames.add_to(options);

@@ -17,10 +17,10 @@ constexpr ToolInfo info{
     "sums of m dv (x) dv by layer, window and species: kinetic stress, and the mean flow.",
     "grseg-kinetic run.h5 [options] > kinetic.tsv",
     "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
-    "  grseg-kinetic run.h5 --mean profile-unbiased     about that of all other grains\n"
+    "  grseg-kinetic run.h5 --mean profile-unbiased     about the profile of all other grains\n"
     "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
     "  grseg-kinetic run.h5 --mean instant-unbiased     about the layer's mean in each frame\n"
-    "  grseg-kinetic run.h5 --velocity middle           of the middle of each step\n"
+    "  grseg-kinetic run.h5 --velocity middle           velocities in the middle of steps\n"
     "  grseg-kinetic drum.h5 --bins xy --layer 2dS -o flow.pvd        a map, for ParaView\n"
     "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
     presets::kinetic};
@@ -37,8 +37,8 @@ po::options_description options_into(Settings& s)
   add("mean", word_option(&s.mean, words_of(mean_flows)),
       ("mean velocity that fluctuations are counted from: " + list_of(mean_flows)).c_str());
   add("velocity", word_option(&s.velocity, words_of(velocities_in_step)),
-      ("which velocity of the step that a frame is: " + list_of(velocities_in_step) +
-       "; imported frames have one only")
+      ("velocity within the step of a frame: " + list_of(velocities_in_step) +
+       "; imported frames have only one")
           .c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
@@ -73,7 +73,8 @@ void tabulate(FrameLoop& loop, MeanFlow flow, VelocityInStep which, const Header
     fmt::print(stderr, "{}: {}\n", info.name, sentence);
 }
 
-/// Maps have no profile: unless it was asked for, the mean is that of the cell.
+/// Takes the mean of the cell for a map, which has no profile. UsageError where a profile was asked
+/// for.
 void choose_mean_of_map(Settings& s, const po::variables_map& values)
 {
   if (!s.frames.map() || (s.mean != "profile" && s.mean != "profile-unbiased")) return;

@@ -23,7 +23,7 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   auto add = options.add_options();
-  add("all-windows", po::bool_switch(&s.all_windows), "one window of all windows together");
+  add("all-windows", po::bool_switch(&s.all_windows), "merge all windows into one");
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&s.quiet), "no remarks");
   s.output.add_to(options);

@@ -40,17 +40,19 @@ po::options_description options_into(Settings& s)
   add("partition", word_option(&s.partition, words_of_rule()),
       "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
   add("base-part", word_option(&s.base, words_of(base_parts)),
-      ("likewise, the part of contacts with base and walls: " + list_of(base_parts)).c_str());
+      ("likewise, the part of a contact with the base or a wall that its grain gets: " +
+       list_of(base_parts))
+          .c_str());
   add("volume", word_option(&s.volume, words_of(stress_volumes)),
-      ("likewise, the volume of a stress: " + list_of(stress_volumes)).c_str());
+      ("likewise, the volume that sums are divided by: " + list_of(stress_volumes)).c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
   return options;
 }
 
-/// The choices of --partition, --base-part and --volume, by which maps make stress of sums. A table of
-/// layers only passes them on to grseg-fit, except for the exponent of Mpower_*.
+/// The choices of --partition, --base-part and --volume, by which maps make stress of sums. A table
+/// of layers only passes them on to grseg-fit, except for the exponent of Mpower_*.
 MapStress stress_of(Settings& s)
 {
   const auto volume = choose(s.volume, "--volume", stress_volumes);

@@ -7,8 +7,8 @@
 
 namespace grseg {
 
-/// The main of a tool: its command line into `Settings`, by the options that `options_into` adds for
-/// them, and then `work`, with the line of the history.
+/// The main of a tool: its command line into `Settings`, by the options that `options_into` adds
+/// for them, and then `work`, with the line of the history.
 template <class Settings>
 int tool_main(int argc, char** argv, const ToolInfo& info,
               po::options_description (*options_into)(Settings&),

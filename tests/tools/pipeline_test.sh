@@ -34,7 +34,7 @@ cmp keys-balance keys-stress || fail "grseg-balance and grseg-stress have differ
 
 # A tolerance of the solver that a draft misses is said to be that of another preset.
 ! $bin/grseg-check a.h5 --physics --largest-overlap 1e-9 --quiet -o check.tsv 2>/dev/null || fail "an overlap above its tolerance passes"
-grep -q '^overlap_largest.*failed.*the tolerance is that of standard, and this run is a draft' check.tsv || fail "no preset is named: $(grep overlap check.tsv)"
+grep -q '^overlap_largest.*failed.*the tolerance is for --accuracy standard, and this run is a draft' check.tsv || fail "no preset is named: $(grep overlap check.tsv)"
 
 # In a true run every momentum balance closes to round-off.
 closes=$(sed -n 's/^grseg-balance: .*the balances close to \([0-9.e-]*\) of .*/\1/p' words)

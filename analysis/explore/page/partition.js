@@ -103,7 +103,7 @@ export function sumsOf(fit, stress, which = null) {
   return {B: excess / weight, points, weight};
 }
 
-/** Of two species: B of contacts that ignore grain size, of nominal radii, at p (neutral_contacts.hpp). */
+/** Of two species: B of contacts that ignore grain size, of nominal radii, at p (partition_rule.cpp). */
 export function neutralSums(fit, p) {
   if (!fit.two) return NaN;
   const {phi_large, frames} = fit.arrays;

@@ -44,10 +44,10 @@ TEST(LayerTable, HoldsEachLayerOfAWindowOnce)
 {
   EXPECT_EQ(refusal({key(0, 1, 0, 0.02), key(0, 1, 0.02, 0.04), key(1, 2, 0, 0.02)}), "");
   EXPECT_EQ(refusal({key(0, 1, 0, 0.02), key(1, 2, 0, 0.02), key(0, 1, 0, 0.02)}),
-            "t.tsv: row 3 repeats a window and layer, those of row 1");
+            "t.tsv: row 3 repeats the window and layer of row 1");
   EXPECT_EQ(refusal({key(0, 1, nan, nan), key(0, 1, 0, 0.02), key(1, 2, nan, nan)}), "");
   EXPECT_EQ(refusal({key(0, 1, nan, nan), key(0, 1, 0, 0.02), key(0, 1, nan, nan)}),
-            "t.tsv: row 3 repeats a window and layer, those of row 1");
+            "t.tsv: row 3 repeats the window and layer of row 1");
 }
 
 TEST(LayerTable, HasNoVolumeForABedBelowTheBase)
