@@ -237,11 +237,8 @@ void PartitionedBalance<D>::add(const Grains& grains, const Frame<D>& frame)
     if (equal) {
       add_unmixed(y_j, stress);
     } else {
-      const bool i_large = own > other;
-      const double r_i = grains.radius[i], r_j = grains.radius[*j];
-      const MixedContact radii{i_large ? r_i : r_j, i_large ? r_j : r_i,
-                               i_large ? share_i : 1 - share_i};
-      if (i_large)
+      const auto radii = mixed_contact(grains, i, *j, share_i);
+      if (own > other)
         add_mixed({radii, f, stress, own, other, y_i, y_j, rise});
       else
         add_mixed({radii, -f, stress, other, own, y_j, y_i, -rise});

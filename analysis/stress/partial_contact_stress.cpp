@@ -138,16 +138,12 @@ void PartialContactStress<D>::add(const Grains& grains, const Frame<D>& frame)
     }
     const auto b = static_cast<std::size_t>(grains.species[*j]);
     contacts[contact_index(std::min(a, b), std::max(a, b))] += 1;
-    if (a == b) {
+    if (a == b)
       add_equal(a, contact, end_i, end_j, share_i);
-    } else {
-      const bool i_large = a > b;
-      const double r_i = grains.radius[i], r_j = grains.radius[*j];
-      const MixedContact radii{i_large ? r_i : r_j, i_large ? r_j : r_i,
-                               i_large ? share_i : 1 - share_i};
-      add_mixed(pair_index(std::min(a, b), std::max(a, b)), contact, radii, i_large ? end_i : end_j,
-                i_large ? end_j : end_i);
-    }
+    else
+      add_mixed(pair_index(std::min(a, b), std::max(a, b)), contact,
+                mixed_contact(grains, i, *j, share_i), a > b ? end_i : end_j,
+                a > b ? end_j : end_i);
   }
 }
 

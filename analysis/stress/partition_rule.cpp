@@ -187,6 +187,13 @@ std::string names_of(const std::vector<PartitionRule>& rules)
   return fmt::format("{}", fmt::join(listed(rules, &PartitionRule::name), ","));
 }
 
+MixedContact mixed_contact(const Grains& grains, std::size_t i, std::size_t j, double share_i)
+{
+  const double r_i = grains.radius[i], r_j = grains.radius[j];
+  if (grains.species[i] > grains.species[j]) return {r_i, r_j, share_i};
+  return {r_j, r_i, 1 - share_i};
+}
+
 template <int D>
 ContactShares contact_shares(const Grains& grains, const Frame<D>& frame, std::size_t contact,
                              const PartitionRule& rule)
@@ -198,12 +205,8 @@ ContactShares contact_shares(const Grains& grains, const Frame<D>& frame, std::s
   if (a == b) return {up_to_contact, 1 - up_to_contact};
   const auto& definition = rule.definition();
   if (definition.share == nullptr) return {0, 0};
-  const bool i_large = a > b;
-  const double r_i = grains.radius[i], r_j = grains.radius[*j];
-  const MixedContact mixed{i_large ? r_i : r_j, i_large ? r_j : r_i,
-                           i_large ? up_to_contact : 1 - up_to_contact};
-  const double to_large = definition.share(mixed, rule.value);
-  return i_large ? ContactShares{to_large, 1 - to_large} : ContactShares{1 - to_large, to_large};
+  const double to_large = definition.share(mixed_contact(grains, i, *j, up_to_contact), rule.value);
+  return a > b ? ContactShares{to_large, 1 - to_large} : ContactShares{1 - to_large, to_large};
 }
 
 template ContactShares contact_shares(const Grains&, const Frame<2>&, std::size_t,

@@ -39,6 +39,8 @@ struct MixedContact {
   double r_large, r_small;  // m, or in any common unit
   double up_to_contact;     // share of the branch between the large grain's centre and the contact
 };
+/// The contact between grains i and j of different species, of which i has `share_i` of the branch.
+MixedContact mixed_contact(const Grains& grains, std::size_t i, std::size_t j, double share_i);
 
 /// Definition of one kind of rule. Parsing, --help, "stock", used_by, the columns that a table must
 /// have, the stresses and the neutral B follow from the table of these in partition_rule.cpp.
