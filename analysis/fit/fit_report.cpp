@@ -124,7 +124,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
     add(quantity, measured.estimate(), fit.over, measured.error.degrees);
   };
   if (fit.rule.adds_up()) {
-    add("B", {fit.value.B, fit.low.B, fit.high.B}, fit.over, fit.degrees);
+    add("B", fit.estimate(&Estimators::B), fit.over, fit.degrees);
     for (const auto& [word, population, meaning] : populations)
       if (population != fit.over) add("B", fit.at(population), population);
   }
@@ -134,7 +134,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   if (fit.size_exponent) add("size_exponent", *fit.size_exponent, fit.over);
   for (const auto& [name, place] : estimator_columns)
     if (report.with_paper && std::string(name).starts_with("paper_"))
-      add(name, {fit.value.*place, fit.low.*place, fit.high.*place}, fit.over);
+      add(name, fit.estimate(place), fit.over);
   add("effective_windows", {fit.dependence.effective_windows});
   add("autocorrelation_time[windows]", {fit.dependence.time});
   if (!of_first_rule) return;
@@ -343,7 +343,7 @@ std::string rules_text(const FitReport& report)
   std::vector<Line> lines{
       {report.is_by_flow() ? "rule, flow" : "rule", "B [95 %]", "share", "used by"}};
   for (const auto& fit : report.rules)
-    lines.push_back({row_name(report, fit), b_text(report, {fit.value.B, fit.low.B, fit.high.B}),
+    lines.push_back({row_name(report, fit), b_text(report, fit.estimate(&Estimators::B)),
                      rounded(report, fit.share), used_by(report, fit)});
   return with_words_outside(lines);
 }
@@ -358,7 +358,7 @@ std::string paper_text(const FitReport& report)
     auto& line = lines.emplace_back(Line{row_name(report, fit)});
     for (const auto place :
          {&Estimators::paper_s, &Estimators::paper_B, &Estimators::paper_k, &Estimators::paper_a})
-      line.push_back(b_text(report, {fit.value.*place, fit.low.*place, fit.high.*place}));
+      line.push_back(b_text(report, fit.estimate(place)));
   }
   return '\n' + with_words_outside(lines);
 }

@@ -33,6 +33,10 @@ struct RuleFit {
   std::size_t runs = 0;
   Estimators value, low, high, error;
   double degrees = no_number;  // of freedom of the interval of B
+  Estimate estimate(double Estimators::*place) const
+  {
+    return {value.*place, low.*place, high.*place};
+  }
   // B over each population, as far as it is known: see at().
   std::array<Estimate, std::size(populations) + 1> B_over = {};
   Estimate& at(Population population) { return B_over[static_cast<std::size_t>(population)]; }

@@ -210,7 +210,7 @@ TEST(Coverage, OfTheStrengthOfSegregationIsThatOfAMean)
   for (int k = 0; k < trials; ++k) {
     const auto fit = fit_rule(ScatteredStress::windows({120}, 0, noise), {}, {},
                               Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
-    share += holds({fit.value.B, fit.low.B, fit.high.B}, truth) / trial_count;
+    share += holds(fit.estimate(&Estimators::B), truth) / trial_count;
   }
   EXPECT_GT(share, least);
   EXPECT_LT(share, most);
@@ -228,7 +228,7 @@ TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
   for (int k = 0; k < trials; ++k) {
     const auto fit = fit_rule(ScatteredStress::drifting(120, &noise), {}, {},
                               Bootstrap({120}, 200, 1 + static_cast<unsigned>(k)));
-    share += holds({fit.value.B, fit.low.B, fit.high.B}, truth) / trial_count;
+    share += holds(fit.estimate(&Estimators::B), truth) / trial_count;
     time += fit.dependence.time / trial_count;
   }
   EXPECT_GT(share, least);
