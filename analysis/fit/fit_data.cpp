@@ -74,17 +74,14 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
 
 std::vector<LayerSolid> layers_of(const std::vector<FitRow>& rows)
 {
-  std::vector<LayerSolid> layers;
-  layers.reserve(rows.size());
-  for (const auto& row : rows)
-    layers.push_back({row.key.bottom, row.key.top, row.key.frames, row.solid()});
-  return layers;
+  return listed(rows, [](const FitRow& row) {
+    return LayerSolid{row.key.bottom, row.key.top, row.key.frames, row.solid()};
+  });
 }
 
 /// Where a row counts: as used, or under the reason why it is left out.
 std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
-                                   const FitFilters& filters, const RowRange& range,
-                                   double median_solid)
+                                   const FitFilters& filters, const RowRange& range)
 {
   using Count = FilterCount;
   const double small = row.sums.content[pair.smaller], large = row.sums.content[pair.larger];
@@ -95,7 +92,7 @@ std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
   if (!(large > 0)) return &Count::without_large;
   if (!range.holds_layer(row.key)) return &Count::outside_heights;
   if (ratio < filters.ratio_low || ratio > filters.ratio_high) return &Count::outside_ratio;
-  if (row.solid() < filters.min_solid * median_solid) return &Count::below_solid;
+  if (row.solid() < range.least_solid) return &Count::below_solid;
   return &Count::used;
 }
 
@@ -124,12 +121,11 @@ UsedRows used_rows(const FitTable& run, const FitFilters& filters,
   const auto& table = *run.table;
   const LengthUnits units{table.header_positive("small_diameter"),
                           table.header_positive("large_diameter")};
-  const RowRange range{filters.begin, filters.end,
-                       parse_heights(filters.heights, units, layers_of(run.rows))};
+  const auto range = filters.range(units, layers_of(run.rows));
   UsedRows used;
   for (const auto& row : run.rows)
     for (const auto& pair : pairs) {
-      const auto place = place_of(row, pair, filters, range, run.median_solid);
+      const auto place = place_of(row, pair, filters, range);
       ++count.rows;
       ++(count.*place);
       if (place == &FilterCount::used) used.emplace_back(&row, pair);
@@ -248,9 +244,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
   std::vector<FitTable> all;
   for (const auto& table : tables) {
     const auto species = species_of(table);
-    auto rows = read_rows(table, species, quantity, rules);
-    const double median = median_solid(layers_of(rows));
-    all.push_back({&table, species, std::move(rows), median});
+    all.push_back({&table, species, read_rows(table, species, quantity, rules)});
     require_alike(all.front(), all.back());
   }
   const auto runs = find_runs(tables);

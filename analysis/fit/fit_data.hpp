@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -56,14 +55,8 @@ inline constexpr Choice<Component> components[] = {
     {"pressure", Component::pressure, "half the trace"}};
 
 /// Which rows of the tables are points of the fit.
-struct FitFilters {
-  double ratio_low = 0.01, ratio_high = 100;                // of phi_S/phi_L
-  double min_solid = 0.5;                                   // of the run's median solid fraction
-  double begin = -std::numeric_limits<double>::infinity();  // s, windows lie in [begin, end]
-  double end = std::numeric_limits<double>::infinity();
-  std::string heights = "all";  // between which layers lie, as on the command line (layer_key.hpp)
-
-  bool all_times() const { return std::isinf(begin) && std::isinf(end); }
+struct FitFilters : RowFilter {
+  double ratio_low = 0.01, ratio_high = 100;  // of phi_S/phi_L
 };
 
 /// Two of the species of the tables, the smaller first.
@@ -126,12 +119,11 @@ struct FitRow {
   double solid() const;  // solid fraction
 };
 
-/// The rows of one table, its run's median solid fraction and its species.
+/// The rows of one table and its species.
 struct FitTable {
   const Table* table;
   SpeciesList species;
   std::vector<FitRow> rows;
-  double median_solid = 0;
   std::size_t flow = 0;
   std::size_t run = 0;  // the same of tables of one run
 };

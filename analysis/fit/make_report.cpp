@@ -96,12 +96,8 @@ po::options_description FitOptions::description()
   add("seed", number(seed, "N")->default_value(1), "seed of the samples");
   add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
       "range of phi_S/phi_L in layers that take part");
-  add("heights", text(filters.heights, "y0:y1")->default_value(inside_the_bed),
-      fmt::format("layers that take part: {}", heights_help).c_str());
-  add("min-solid", number(filters.min_solid, "X")->default_value(0.5, "0.5"),
-      "leave out layers whose solid fraction is less than X times the run's median");
-  add("begin", number(filters.begin, "s"), "leave out windows that begin before this time");
-  add("end", number(filters.end, "s"), "leave out windows that end after this time");
+  filters.add_layers_to(options);
+  filters.add_times_to(options);
   add("json", po::bool_switch(&json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&quiet), "no remarks on standard error");
   output.add_to(options);
@@ -116,13 +112,10 @@ void FitOptions::check(const po::variables_map& values)
     throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", bootstrap));
   if (seed < 0) throw UsageError("--seed must not be negative");
   output.check(values);
-  if (std::isnan(filters.begin) || std::isnan(filters.end))
-    throw UsageError("--begin and --end are times in seconds");
-  if (!(filters.min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  filters.check();
   if (!over.empty()) choose(over, "--over", populations);
   if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
-  check_heights(filters.heights);
   if (!scan.empty()) parse_scan(scan);
   if (quantity == "kinetic")
     for (const char* option : {"partition", "scan", "base-part"})
@@ -195,24 +188,23 @@ std::string over_words(const FitReport& report)
 Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& preset,
                  const std::vector<Table>& tables, const FitReport& report, const FitData& data)
 {
-  return {
-      program_line(info),
-      {"preset", preset},
-      {"quantity", s.quantity},
-      {"component", s.component},
-      {"ratio_range", s.ratio_range},
-      {"heights", heights_in_words(s.filters.heights)},
-      {"times",
-       s.filters.all_times() ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
-      {"min_solid", format_number(s.filters.min_solid)},
-      {"rows", data.count.sentence()},
-      {"runs", fmt::format("{}", data.runs.size())},
-      {"windows", fmt::format("{}", number_of_windows(data.runs))},
-      {"bootstrap", fmt::format("{}", s.bootstrap)},
-      {"seed", fmt::format("{}", s.seed)},
-      {"interval", "95 %"},
-      {"over", over_words(report)},
-      {"flows", grouping_words(s.flows, tables)}};
+  const bool all_times = std::isinf(s.filters.begin) && std::isinf(s.filters.end);
+  return {program_line(info),
+          {"preset", preset},
+          {"quantity", s.quantity},
+          {"component", s.component},
+          {"ratio_range", s.ratio_range},
+          {"heights", heights_in_words(s.filters.heights)},
+          {"times", all_times ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
+          {"min_solid", format_number(s.filters.min_solid)},
+          {"rows", data.count.sentence()},
+          {"runs", fmt::format("{}", data.runs.size())},
+          {"windows", fmt::format("{}", number_of_windows(data.runs))},
+          {"bootstrap", fmt::format("{}", s.bootstrap)},
+          {"seed", fmt::format("{}", s.seed)},
+          {"interval", "95 %"},
+          {"over", over_words(report)},
+          {"flows", grouping_words(s.flows, tables)}};
 }
 
 PartitionScan scan(const char* program, const FitData& data, const ScanRange& range,

@@ -122,6 +122,42 @@ bool RowRange::holds_window(const LayerKey& key) const
   return !(key.begin < begin - slack) && !(key.end > end + slack);
 }
 
+void RowFilter::add_times_to(po::options_description& options)
+{
+  options.add_options()("begin", po::value(&begin)->value_name("s"),
+                        "leave out windows that begin before this time");
+  options.add_options()("end", po::value(&end)->value_name("s"),
+                        "leave out windows that end after this time");
+}
+
+void RowFilter::add_layers_to(po::options_description& options, const std::string& when)
+{
+  options.add_options()("heights",
+                        po::value(&heights)->value_name("y0:y1")->default_value(inside_the_bed),
+                        fmt::format("{}layers that take part: {}", when, heights_help).c_str());
+  options.add_options()(
+      "min-solid", po::value(&min_solid)->default_value(0.5, "0.5")->value_name("X"),
+      (when + "leave out layers whose solid fraction is less than X times the median").c_str());
+}
+
+void RowFilter::check() const
+{
+  if (std::isnan(begin) || std::isnan(end))
+    throw UsageError("--begin and --end are times in seconds");
+  if (!(min_solid >= 0)) throw UsageError("--min-solid must not be negative");
+  check_heights(heights);
+}
+
+Header RowFilter::lines() const
+{
+  return {{"heights", heights_in_words(heights)}, {"min_solid", format_number(min_solid)}};
+}
+
+RowRange RowFilter::range(LengthUnits units, const std::vector<LayerSolid>& layers) const
+{
+  return {begin, end, parse_heights(heights, units, layers), min_solid * median_solid(layers)};
+}
+
 namespace {
 
 [[noreturn]] void refuse_row(const Table& table, std::size_t row, const std::string& why)

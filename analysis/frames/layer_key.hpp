@@ -90,15 +90,35 @@ std::vector<std::string> with_key_columns(int dimension, const std::vector<std::
 /// A row: the key, followed by `more`.
 std::vector<double> with_key(const LayerKey& key, const std::vector<double>& more);
 
-/// Rows that take part: windows between two times (s) and layers between two heights (m), up to
-/// round-off. The whole bed lies between any heights.
+/// Rows of one bed that take part: windows between two times (s) and layers between two heights
+/// (m), up to round-off. The whole bed lies between any heights.
 struct RowRange {
   double begin = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
   HeightRange heights = {};
+  double least_solid = 0;  // least solid fraction of a layer
 
   bool holds_window(const LayerKey& key) const;
   bool holds_layer(const LayerKey& key) const { return heights.holds(key.bottom, key.top); }
+};
+
+/// Rows that take part, as on the command line of a tool that reads or makes tables.
+struct RowFilter {
+  double begin = -std::numeric_limits<double>::infinity();  // s
+  double end = std::numeric_limits<double>::infinity();
+  std::string heights = "all";
+  double min_solid = 0.5;  // least solid fraction of a layer over the median of its bed
+
+  /// Adds --begin and --end.
+  void add_times_to(po::options_description& options);
+  /// Adds --heights, by default `inside`, and --min-solid; `when` begins their help.
+  void add_layers_to(po::options_description& options, const std::string& when = "");
+  /// UsageError where a value has no meaning.
+  void check() const;
+  /// Header lines "heights" and "min_solid".
+  Header lines() const;
+  /// The range of a bed of these layers.
+  RowRange range(LengthUnits units, const std::vector<LayerSolid>& layers) const;
 };
 
 /// 2, or the number in the line "dimension". FormatError where that is not 3.

@@ -5,7 +5,6 @@
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/micro/derived_quantities.hpp"
-#include "analysis/micro/sums_table.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
@@ -17,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace grseg {
 namespace {
@@ -165,7 +165,7 @@ std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& 
   for (const auto& row : rows)
     if (!row.is_bed())
       layers.push_back({row.bottom, row.top, row.frames, row.sums.content() / row.volume});
-  const RowRange range{filter.begin, filter.end, parse_heights(filter.heights, units, layers)};
+  const auto range = filter.range(units, layers);
   std::erase_if(rows, [&](const SumsRow<D>& row) {
     return !range.holds_window(row) || !range.holds_layer(row);
   });
@@ -221,17 +221,8 @@ PartitionRule rule_of(const DerivedOptions& options)
 /// Heights: a profile has all layers, what pools them those inside the bed.
 std::string heights_of(const DerivedOptions& options)
 {
-  if (!options.heights.empty()) return options.heights;
+  if (!options.rows.heights.empty()) return options.rows.heights;
   return options.pool == "composition" ? inside_the_bed : "all";
-}
-
-RowFilter filter_of(const DerivedOptions& options)
-{
-  RowFilter filter;
-  filter.begin = options.begin.value_or(filter.begin);
-  filter.end = options.end.value_or(filter.end);
-  filter.heights = heights_of(options);
-  return filter;
 }
 
 [[noreturn]] void refuse_difference(const Table& first, const Table& other, const char* key)
@@ -295,19 +286,18 @@ void DerivedOptions::add_to(po::options_description& options)
       "phi_L)");
   add("depth", po::value(&depth)->value_name("LENGTH"),
       "forces are divided by the pressure at depth H - y; this is H (default: height of the bed)");
-  add("heights", po::value(&heights)->value_name("y0:y1"),
+  add("heights", po::value(&rows.heights)->value_name("y0:y1"),
       fmt::format("layers that take part: {} (default: inside of layers that are pooled by "
                   "composition, else all)",
                   heights_help)
           .c_str());
-  add("begin", time_option(begin), "leave out windows that begin before this time");
-  add("end", time_option(end), "leave out windows that end after this time");
+  rows.add_times_to(options);
 }
 
 void DerivedOptions::check() const
 {
   choose(pool, "--pool", pool_words);
-  if (!heights.empty()) check_heights(heights);
+  if (!rows.heights.empty()) rows.check();
   choose(force, "--force", force_words);
   choose(average, "--average", average_words);
   rule_of(*this);
@@ -330,7 +320,8 @@ Table derived_table(const std::vector<Table>& tables, const DerivedOptions& opti
     const auto constants = read_run_constants(tables[0]);
     const LengthUnits units{constants.small_diameter, constants.large_diameter};
     if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);
-    for (const auto& row : pooled(filtered(std::move(rows), filter_of(options), units), pool)) {
+    const RowFilter filter{options.rows.begin, options.rows.end, heights_of(options)};
+    for (const auto& row : pooled(filtered(std::move(rows), filter, units), pool)) {
       const auto derived = derived_quantities(row, constants, settings);
       if (table.columns.empty()) table.columns = with_key_columns(d, columns_of(derived));
       table.rows.push_back(with_key(row, values_of(derived)));

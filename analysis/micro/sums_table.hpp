@@ -8,8 +8,6 @@
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
 
-#include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,13 +42,7 @@ RunConstants read_run_constants(const Table& table);
 template <int D>
 std::vector<SumsRow<D>> read_sums_rows(const Table& table);
 
-/// Which rows take part: windows in [begin, end] and layers between two heights; the rows of the
-/// whole bed lie at all heights.
-struct RowFilter {
-  double begin = -std::numeric_limits<double>::infinity();  // s
-  double end = std::numeric_limits<double>::infinity();
-  std::string heights = "all";  // as on the command line (layer_key.hpp)
-};
+/// The rows in windows and layers that take part, however solid the layers are.
 template <int D>
 std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter,
                                  LengthUnits units);
@@ -67,9 +59,8 @@ std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
 
 /// Options of grseg-derive, as given on the command line.
 struct DerivedOptions {
-  std::string force = "modulus", average = "contacts", partition = "size", pool = "none", depth,
-              heights;
-  std::optional<double> begin = {}, end = {};  // s, of the windows
+  std::string force = "modulus", average = "contacts", partition = "size", pool = "none", depth;
+  RowFilter rows{.heights = ""};  // "": by `pool`
 
   /// Adds --force --average --partition --pool --depth --heights --begin --end.
   void add_to(po::options_description& options);

@@ -298,20 +298,19 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
   RunRows rows{{}, {}, gravity_of(tables)};
   const LengthUnits units{segregation.header_positive("small_diameter"),
                           segregation.header_positive("large_diameter")};
-  RowRange range = filter.range;
   const auto list = motions_of(segregation, data.has_kinetic);
   const auto layers = listed(list, [](const LayerMotion& motion) {
     return LayerSolid{motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()};
   });
-  range.heights = parse_heights(filter.heights, units, layers);
-  const double least_solid = filter.min_solid * median_solid(layers);
+  const auto range = filter.range(units, layers);
   for (const auto& motion : list) rows.motions.emplace(place_of(motion.key), motion);
   rows.stresses = stresses_of(*tables.stress, rules);
 
   data.rows += list.size();
   for (const auto& motion : list) {
     const auto& key = motion.key;
-    if (!range.holds_window(key) || !range.holds_layer(key) || !(motion.solid() >= least_solid))
+    if (!range.holds_window(key) || !range.holds_layer(key) ||
+        !(motion.solid() >= range.least_solid))
       continue;
     const auto stress = rows.stresses.find(place_of(key));
     if (stress == rows.stresses.end())

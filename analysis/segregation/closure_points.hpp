@@ -65,10 +65,7 @@ inline constexpr Choice<Instruments> instrument_choices[] = {
     {"same", Instruments::same, "X and G of this window: least squares"}};
 
 /// Which layers and windows take part.
-struct ClosureFilter {
-  RowRange range = {};
-  std::string heights = "all";  // as on the command line (layer_key.hpp)
-  double min_solid = 0.5;       // least solid fraction over the median of the run
+struct ClosureFilter : RowFilter {
   Instruments instruments = Instruments::previous;
 };
 

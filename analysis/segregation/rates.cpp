@@ -2,7 +2,6 @@
 #include "analysis/segregation/rates.hpp"
 
 #include "analysis/frames/sums.hpp"
-#include "analysis/segregation/rates.hpp"
 #include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 #include "analysis/statistics/least_squares.hpp"
@@ -200,29 +199,14 @@ Estimate quotient(const Regression& a, const Regression& b, double factor)
 
 }  // namespace
 
-void RateFilter::check() const
-{
-  if (!(min_solid >= 0)) throw UsageError("--min-solid must not be negative");
-  check_heights(heights);
-}
-
-Header RateFilter::lines() const
-{
-  return {{"heights", heights_in_words(heights)},
-          {"min_solid", format_number(min_solid)},
-          {"interval", "95 %"}};
-}
-
-std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
+std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RowFilter& filter,
                                 LengthUnits units)
 {
-  std::vector<LayerSolid> layers;
-  layers.reserve(points.size());
-  for (const auto& point : points) layers.push_back({point.bottom, point.top, 1, point.solid});
-  const auto heights = parse_heights(filter.heights, units, layers);
-  const double median = median_solid(layers);
+  const auto range = filter.range(units, listed(points, [](const RatePoint& point) {
+                                    return LayerSolid{point.bottom, point.top, 1, point.solid};
+                                  }));
   std::erase_if(points, [&](const RatePoint& point) {
-    return !heights.holds(point.bottom, point.top) || !(point.solid >= filter.min_solid * median);
+    return !range.heights.holds(point.bottom, point.top) || !(point.solid >= range.least_solid);
   });
   return points;
 }
@@ -352,7 +336,7 @@ std::vector<double> SegregationTable<D>::bed_row() const
 }
 
 template <int D>
-NamedNumbers SegregationTable<D>::summary(const RateFilter& filter) const
+NamedNumbers SegregationTable<D>::summary(const RowFilter& filter) const
 {
   auto summary = segregation_times(series_.moments(), windows_);
   const auto rates =

@@ -32,17 +32,8 @@ struct RatePoint {
   SegregationResult layer;
 };
 
-/// Which layers take part.
-struct RateFilter {
-  std::string heights = "all";  // as on the command line (layer_key.hpp)
-  double min_solid = 0.5;       // least solid fraction over the median of all points
-
-  /// UsageError where they cannot be.
-  void check() const;
-  /// Header lines on these settings and on the intervals.
-  Header lines() const;
-};
-std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RateFilter& filter,
+/// The points in layers that take part, whatever their windows.
+std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RowFilter& filter,
                                 LengthUnits units);
 
 /// Segregation velocity, diffusivities and Peclet number of a whole run, over the layers and
@@ -81,7 +72,7 @@ class SegregationTable {
   std::vector<double> bed_row() const;
   double bed() const { return bed_.bed; }  // height, m
 
-  NamedNumbers summary(const RateFilter& filter) const;
+  NamedNumbers summary(const RowFilter& filter) const;
 
  private:
   Layers layers_;

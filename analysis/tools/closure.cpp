@@ -2,7 +2,8 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/frames/layer_key.hpp"
-#include "analysis/segregation/rates.hpp"
+#include "analysis/segregation/closure_points.hpp"
+#include "analysis/segregation/named_numbers.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
@@ -10,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,7 @@ constexpr ToolInfo info{
     "  grseg-closure *.segregation.tsv *.stress.tsv --partition size,half --instruments same\n"};
 
 struct Settings {
-  RateFilter filter;
-  std::optional<double> begin = {}, end = {};  // s
+  ClosureFilter filter;
   std::vector<std::string> partition;
   std::string instruments = "previous";
   int bootstrap = 1000;
@@ -50,12 +50,8 @@ po::options_description options_into(Settings& s)
   add("bootstrap", po::value(&s.bootstrap)->default_value(s.bootstrap)->value_name("N"),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", po::value(&s.seed)->default_value(s.seed)->value_name("N"), "seed of the samples");
-  add("heights", po::value(&s.filter.heights)->value_name("y0:y1")->default_value(inside_the_bed),
-      fmt::format("layers that take part: {}", heights_help).c_str());
-  add("min-solid", po::value(&s.filter.min_solid)->default_value(0.5, "0.5")->value_name("X"),
-      "leave out layers whose solid fraction is less than X times the median");
-  add("begin", time_option(s.begin), "leave out windows that begin before this time");
-  add("end", time_option(s.end), "leave out windows that end after this time");
+  s.filter.add_layers_to(options);
+  s.filter.add_times_to(options);
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&s.quiet), "no remarks");
   s.output.add_to(options);
@@ -72,13 +68,13 @@ void check(const Settings& s, const po::variables_map& values)
   s.filter.check();
 }
 
-std::string text_of_times(const Settings& s)
+std::string text_of_times(const RowFilter& filter)
 {
-  if (!s.begin && !s.end) return "all";
-  const auto text = [](const std::optional<double>& time) {
-    return time ? fmt::format("{:g}", *time) : "";
+  const auto text = [](double time) {
+    return std::isfinite(time) ? fmt::format("{:g}", time) : "";
   };
-  return fmt::format("{}:{}", text(s.begin), text(s.end));
+  const auto times = fmt::format("{}:{}", text(filter.begin), text(filter.end));
+  return times == ":" ? "all" : times;
 }
 
 void close(Settings& s, const po::variables_map& values, const std::string& command)
@@ -86,22 +82,18 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
   check(s, values);
   if (s.partition.empty()) s.partition = {"stock"};
   const auto rules = parse_rules(s.partition);
-  ClosureFilter filter{.heights = s.filter.heights,
-                       .min_solid = s.filter.min_solid,
-                       .instruments = choose(s.instruments, "--instruments", instrument_choices)};
-  filter.range.begin = s.begin.value_or(filter.range.begin);
-  filter.range.end = s.end.value_or(filter.range.end);
+  s.filter.instruments = choose(s.instruments, "--instruments", instrument_choices);
   const auto tables = read_tables(values);
   if (tables.empty())
     throw UsageError(
         "no table given; name a table of grseg-segregation and one of grseg-stress of each run");
-  const auto data = read_closure(tables, rules, filter);
+  const auto data = read_closure(tables, rules, s.filter);
   auto header = provenance_of(tables, info, "", command);
   if (!data.doubt.empty()) header.emplace_back("doubt", data.doubt);
   header.insert(header.end(), {{"closure", "q_L = (B/c) driving - (d/c) gradient"},
                                {"partition", names_of(rules)},
                                {"instruments", s.instruments},
-                               {"times", text_of_times(s)},
+                               {"times", text_of_times(s.filter)},
                                {"rows", fmt::format("{} of {}", data.points.size(), data.rows)},
                                {"runs", fmt::format("{}", data.runs.size())},
                                {"windows", fmt::format("{}", number_of_windows(data.runs))},
@@ -109,6 +101,7 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
                                {"bootstrap", fmt::format("{}", s.bootstrap)},
                                {"seed", fmt::format("{}", s.seed)}});
   add_all(header, s.filter.lines());
+  header.emplace_back("interval", "95 %");
   const auto summary = closure_summary(
       data, rules, {static_cast<std::size_t>(s.bootstrap), static_cast<unsigned long>(s.seed)});
   write_numbers(summary, header, info, s.output, s.json, s.quiet);

@@ -28,7 +28,7 @@ constexpr ToolInfo info{
 struct Settings {
   FrameOptions frames;
   bool summary = false;
-  RateFilter filter;
+  RowFilter filter;
 };
 
 po::options_description options_into(Settings& s)
@@ -37,10 +37,7 @@ po::options_description options_into(Settings& s)
   auto add = options.add_options();
   add("summary", po::bool_switch(&s.summary),
       "print numbers of the whole run with 95 % intervals instead of layers and windows");
-  add("heights", po::value(&s.filter.heights)->value_name("y0:y1")->default_value(inside_the_bed),
-      fmt::format("with --summary: layers that take part: {}", heights_help).c_str());
-  add("min-solid", po::value(&s.filter.min_solid)->default_value(0.5, "0.5")->value_name("X"),
-      "with --summary: leave out layers whose solid fraction is less than X times the median");
+  s.filter.add_layers_to(options, "with --summary: ");
   s.frames.add_to(options);
   return options;
 }
@@ -65,6 +62,7 @@ void tabulate(FrameLoop& loop, const Settings& s, const std::string& command)
   if (!s.summary) return table.write();
   auto header = table.table().header;
   add_all(header, s.filter.lines());
+  header.emplace_back("interval", "95 %");
   write_numbers(run.summary(s.filter), header, info, s.frames.output, s.frames.json,
                 s.frames.quiet);
 }

@@ -32,7 +32,7 @@ void read(const std::vector<Table>& tables)
   });
   fuzz::try_to([&] {
     const auto kinetic = Quantity::kinetic;
-    select_fit_data(read_fit_tables(tables, kinetic, {}), kinetic, {.heights = "1dS:"}, {{0, 1}});
+    select_fit_data(read_fit_tables(tables, kinetic, {}), kinetic, {{.heights = "1dS:"}}, {{0, 1}});
   });
   constexpr ToolInfo tool{"grseg-stress", "", "", ""};
   fuzz::try_to([&] { merge_tables(tables, tables.size() % 2 == 0, tool, "fuzz"); });

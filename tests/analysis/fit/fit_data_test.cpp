@@ -118,7 +118,7 @@ TEST(FitData, EachFilterCountsWhatItRemoves)
   ContactSums<2> nothing;
   nothing.volume = 1;
   rows.push_back({2, 3, 9, nothing});
-  const auto data = read({stress_table(rows)}, {.begin = 2, .end = 8});
+  const auto data = read({stress_table(rows)}, {{.begin = 2, .end = 8}});
   EXPECT_EQ(data.count.sentence(),
             "13 rows, 2 outside --begin and --end, 1 without grains, 1 without small grains, 1 "
             "without large grains, 1 outside --ratio-range, 1 below --min-solid");
@@ -132,14 +132,14 @@ TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
   for (int layer = 0; layer < 4; ++layer)
     rows.push_back({0, 1, 9, neutral_sums(0.5, 2), 0.02 * layer, 0.02 * (layer + 1)});
   const auto used = [&](const char* heights) {
-    return read({stress_table(rows)}, {.heights = heights}).count.used;
+    return read({stress_table(rows)}, {{.heights = heights}}).count.used;
   };
   EXPECT_EQ(used("all"), 4u);
   EXPECT_EQ(used(":"), 4u);
   EXPECT_EQ(used("4dS:"), 3u);
   EXPECT_EQ(used("4dS:12dS"), 2u);
   EXPECT_EQ(used(":0.059m"), 2u);
-  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {.heights = "1m:"});
+  const auto sentence = sentence_of<RunError>({stress_table(rows)}, {{.heights = "1m:"}});
   EXPECT_TRUE(holds(sentence, "4 outside --heights"));
   EXPECT_THROW(used("4:five"), UsageError);
   EXPECT_THROW(used("4dS"), UsageError);
@@ -148,10 +148,9 @@ TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
 TEST(FitData, WhereNothingIsLeftTheSentenceNamesTheFilter)
 {
   const auto table = stress_table(neutral_rows(0));
-  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.ratio_low = 500, .ratio_high = 600}),
-                    "210 outside --ratio-range"));
-  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.min_solid = 1.5}), "210 below --min-solid"));
-  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {.begin = 1000}), "--begin"));
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {{}, 500, 600}), "210 outside --ratio-range"));
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {{.min_solid = 1.5}}), "210 below --min-solid"));
+  EXPECT_TRUE(holds(sentence_of<RunError>({table}, {{.begin = 1000}}), "--begin"));
   EXPECT_TRUE(holds(sentence_of<RunError>({stress_table({})}), "0 rows"));
 }
 

@@ -239,8 +239,8 @@ TEST(SegregationClosure, LayersAndWindowsAreChosenByHeightAndTime)
   EXPECT_EQ(read_closure({run.segregation, run.stress}, two_rules, filter).points.size(), 8u * 20);
   filter.instruments = Instruments::previous;
   filter.heights = "8dS:24dS";  // layers 2 to 5
-  filter.range.begin = 5;
-  filter.range.end = 12.5;
+  filter.begin = 5;
+  filter.end = 12.5;
   const auto data = read_closure({run.segregation, run.stress}, two_rules, filter);
   EXPECT_EQ(data.points.size(), 4u * 6);
   EXPECT_EQ(data.runs, RunLengths{6});
