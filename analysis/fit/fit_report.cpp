@@ -11,9 +11,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 namespace grseg {
 namespace {
@@ -23,11 +25,9 @@ using Json = nlohmann::ordered_json;
 /// The names of a flow's tables; "-" where one is not known.
 std::vector<std::string> tables_of(const FitReport& report, const Flow& flow)
 {
-  std::vector<std::string> names;
-  names.reserve(flow.tables.size());
-  for (const auto table : flow.tables)
-    names.push_back(table < report.table_names.size() ? printable(report.table_names[table]) : "-");
-  return names;
+  return listed(flow.tables, [&](std::size_t table) -> std::string {
+    return table < report.table_names.size() ? printable(report.table_names[table]) : "-";
+  });
 }
 
 std::string pair_name(const FitReport& report, const RuleFit& fit)
@@ -72,10 +72,8 @@ std::vector<std::pair<Population, std::string>> estimands(const FitReport& repor
   if (report.scan) used = {report.scan->fits.front().over};
   const auto flows = static_cast<std::size_t>(
       std::ranges::count_if(report.shares, [](double share) { return share > 0; }));
-  std::vector<std::pair<Population, std::string>> words;
-  words.reserve(used.size());
-  for (const auto over : used) words.emplace_back(over, estimand_words(over, flows));
-  return words;
+  return listed(used,
+                [&](Population over) { return std::pair(over, estimand_words(over, flows)); });
 }
 
 /// "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv"
@@ -257,13 +255,12 @@ std::string to_tsv(const FitReport& report)
 std::string to_json(const FitReport& report)
 {
   Json all;
-  all["numbers"] = Json::array();
-  for (const auto& row : number_rows(report)) all["numbers"].push_back(row_object(report, row));
-  if (report.scan) {
-    all["scan"] = Json::array();
-    for (const auto& fit : report.scan->fits)
-      all["scan"].push_back(Json::array({fit.rule.value, fit.value.B, fit.low.B, fit.high.B}));
-  }
+  all["numbers"] =
+      listed(number_rows(report), [&](const NumberRow& row) { return row_object(report, row); });
+  if (report.scan)
+    all["scan"] = listed(report.scan->fits, [](const RuleFit& fit) {
+      return std::array{fit.rule.value, fit.value.B, fit.low.B, fit.high.B};
+    });
   for (const auto& [key, value] : report.header) all["settings"][key] = value;
   all["flows"] = Json::array();
   for (std::size_t m = 0; m < report.flows.size(); ++m)
@@ -276,8 +273,7 @@ std::string to_json(const FitReport& report)
     all["estimands"][word_of(over, populations)] = words;
   all["inputs"] = report.inputs;
   for (const auto& [key, value] : report.trust) all[key].push_back(value);
-  all["history"] = Json::array();
-  for (const auto& line : report.history) all["history"].push_back(printable(line));
+  all["history"] = listed(report.history, [](const auto& line) { return printable(line); });
   all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
 }
@@ -304,20 +300,14 @@ std::string used_by(const FitReport& report, const RuleFit& fit)
 /// A sentence in lines of a hundred columns at most, those after the first indented.
 std::string wrapped(const std::string& sentence)
 {
-  constexpr auto most = readable_width;
   std::string text;
   std::size_t column = 0;
   std::istringstream words(sentence);
-  for (std::string word; words >> word;) {
-    if (column > 0 && column + 1 + word.size() > most) {
-      text += "\n  ";
-      column = 2;
-    } else if (column > 0) {
-      text += ' ';
-      ++column;
-    }
-    text += word;
-    column += word.size();
+  for (std::string word; words >> word; column += word.size()) {
+    const bool breaks = column + 1 + word.size() > readable_width;
+    const std::string_view gap = column == 0 ? "" : breaks ? "\n  " : " ";
+    text.append(gap).append(word);
+    column = breaks && column > 0 ? 2 : column + gap.size();
   }
   return text + '\n';
 }

@@ -95,6 +95,26 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
   return doubt_of_flows(fit, errors.single_runs(), flows);
 }
 
+std::vector<FitPoint> points_at(const FitData& data, double share, const FitSettings& settings)
+{
+  return fit_points(data, {PartitionRule::Kind::uniform, share}, settings);
+}
+
+/// The uniform share p of all mixed contacts that gives the same B as `points`, which some rule
+/// made: (B - B at p = 0)/(B at p = 1 - B at p = 0).
+double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
+                      const FitSettings& settings)
+{
+  const auto none = points_at(data, 0, settings), all = points_at(data, 1, settings);
+  double given = 0, mixed = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!(points[k].total > 0)) continue;
+    given += points[k].frames * (points[k].excess() - none[k].excess());
+    mixed += points[k].frames * (all[k].excess() - none[k].excess());
+  }
+  return given / mixed;
+}
+
 }  // namespace
 
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error)
@@ -163,11 +183,6 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
 
 namespace {
 
-std::vector<FitPoint> points_at(const FitData& data, double share, const FitSettings& settings)
-{
-  return fit_points(data, {PartitionRule::Kind::uniform, share}, settings);
-}
-
 /// Sums by window at one share p, from which B(p) and its slope follow.
 struct AtShare {
   WindowSums value;       // psi_L - phi_L
@@ -227,19 +242,6 @@ LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
   return {{zero, error({at.value.excess() / -change, at.value.excess_noise() / -change})},
           {slope, error({(at.derivative.excess() - slope * weight) / weight.sum(),
                          at.derivative.excess_noise() / weight.sum()})}};
-}
-
-double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
-                      const FitSettings& settings)
-{
-  const auto none = points_at(data, 0, settings), all = points_at(data, 1, settings);
-  double given = 0, mixed = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!(points[k].total > 0)) continue;
-    given += points[k].frames * (points[k].excess() - none[k].excess());
-    mixed += points[k].frames * (all[k].excess() - none[k].excess());
-  }
-  return given / mixed;
 }
 
 }  // namespace grseg

@@ -27,7 +27,7 @@ struct LineOverShare {
 struct RuleFit {
   PartitionRule rule;
   std::size_t points = 0;                 // layers and windows
-  double share = no_number;               // the p that gives this B (rule_fit.hpp); drop: NaN
+  double share = no_number;               // the p that gives this B; drop: NaN
   Population over = Population::windows;  // what the intervals of 95 % are over
   std::optional<std::size_t> flow;        // number of its flow; none: of all flows
   std::size_t runs = 0;
@@ -76,10 +76,5 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
 /// as dependent as they are at p*.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
                               const Bootstrap& bootstrap, Population over);
-
-/// The uniform share p of all mixed contacts that gives the same B as `points`, which some rule
-/// made: (B - B at p = 0)/(B at p = 1 - B at p = 0).
-double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
-                      const FitSettings& settings);
 
 }  // namespace grseg
