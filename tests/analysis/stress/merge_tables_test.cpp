@@ -250,7 +250,7 @@ TEST(MergeTables, DamagedTablesAreNamedWithTheRow)
                     "b.tsv: row 2: 2 frames where others of its window have 1"));
   EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 0, 1)})}), "b.tsv: row 1"));
   EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 1, 1), row(0, 0, 1, 1)})}),
-                    "b.tsv: row 2 repeats a window and layer"));
+                    "b.tsv: row 2 repeats the window and layer of row 1"));
   auto b = table("b", {row(0, 0, 1, 1)});
   b.rows[0][12] = std::nan("");
   EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "b.tsv: row 1, column"));
