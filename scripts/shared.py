@@ -188,18 +188,6 @@ def mean_and_half_width(values):
     return mean, student(n - 1) * statistics.stdev(values) / math.sqrt(n)
 
 
-def ratio(above, below):
-    """Ratio of two sums, and its standard error over the pairs."""
-    n, total = len(above), sum(below)
-    if not total:
-        return math.nan, math.nan
-    value = sum(above) / total
-    if n < 2:
-        return value, math.nan
-    left = sum((a - value * b) ** 2 for a, b in zip(above, below))
-    return value, math.sqrt(left * n / (n - 1)) / abs(total)
-
-
 # ---------------------------------------------------------------------------------------- Markdown
 
 def markdown(heads, rows):

@@ -3,9 +3,12 @@ import math
 import statistics
 import sys
 
+import numpy as np
+
 import profiles
 import rise
 import tables
+from profiles import grseg
 
 QUARTERS = 4
 
@@ -16,9 +19,6 @@ class Part:
     def __init__(self, runs, begin=-math.inf, end=math.inf):
         self.runs, self.begin, self.end = runs, begin, end
 
-    def contains(self, row):
-        return row["t0"] >= self.begin - 1e-9 and row["t1"] <= self.end + 1e-9
-
 
 def parts_of(runs, begin=0):
     """Each run from `begin` on; with fewer than three runs, quarters of each."""
@@ -26,8 +26,7 @@ def parts_of(runs, begin=0):
         return [Part([run], begin) for run in runs]
     parts = []
     for run in runs:
-        end = max(row["t1"] for row in tables.read(run.path("segregation"))[1])
-        edges = [begin + k * (end - begin) / QUARTERS for k in range(QUARTERS + 1)]
+        edges = np.linspace(begin, grseg.read_table(run.path("segregation"))["t1"].max(), QUARTERS + 1)
         parts += [Part([run], *pair) for pair in zip(edges, edges[1:])]
     return parts
 
@@ -36,26 +35,20 @@ def pressures(_, part):
     """Figures 2a and 3a: profiles of one run."""
     run = part.runs[0]
     profile = profiles.Profile([run.path("stress")], [run.path("kinetic")], part.begin, part.end)
-    layers = [y for y in sorted(profile.layers) if tables.INSIDE[0] < profile.middle(y) < tables.INSIDE[1]]
-    at = [{name: value for name, value, _ in profile.columns(y)} for y in layers]
-    height = [profile.middle(y) for y in layers]
-    line = lambda name: statistics.linear_regression(height, [row[name] for row in at])
-    found = {"P_solid_slope": -line("P_solid").slope, "P_slope": -line("P").slope,
-             "nu": statistics.fmean(row["nu"] for row in at)}
-    weights = profile.weights()
-    over_weight = [(row["syy"] * (1 + row["Kyy/syy"])) * profile.unit / weights[y]
-               for row, y in zip(at, layers)]
-    found["weight"] = statistics.fmean(over_weight)
-    parts = [row["Kyy/syy"] for row in at]
-    found.update({"Kyy/syy_least": min(parts), "Kyy/syy_most": max(parts),
-                  "Kyy/syy": statistics.fmean(parts)})
+    use = profile.inside()
+    at = {name: values[use] for name, (values, _) in profile.columns().items()}
+    height, parts = profile.middle[use], at["Kyy/syy"]
+    over_weight = at["syy"] * (1 + parts) * profile.unit / profile.weights()[use]
+    found = {"P_solid_slope": -statistics.linear_regression(height, at["P_solid"]).slope,
+             "P_slope": -statistics.linear_regression(height, at["P"]).slope, "nu": at["nu"].mean(), "weight": over_weight.mean(),
+             "Kyy/syy_least": parts.min(), "Kyy/syy_most": parts.max(), "Kyy/syy": parts.mean()}
     for name in ("K", "K_solid", "K_layer", "K_layer_solid"):
         # P^kappa = a exp(-z/l): a straight line of the logarithm.
-        slope, level = statistics.linear_regression(height, [math.log(row[name]) for row in at])
+        slope, level = statistics.linear_regression(height, np.log(at[name]))
         found[f"{name}_prefactor"] = math.exp(level)
         found[f"{name}_decay"] = -1 / slope / 2  # d_L
-        found[f"{name}_lowest"] = at[0][name]
-    found["shear_share"] = statistics.fmean(row["K_layer"] / row["K"] for row in at) - 1
+        found[f"{name}_lowest"] = at[name][0]
+    found["shear_share"] = (at["K_layer"] / at["K"]).mean() - 1
     return found
 
 
@@ -65,29 +58,30 @@ def derived(options, runs, *words, columns=None):
 
 
 def last_layers(part):
-    """The layers of the last window."""
-    _, rows = tables.read(part.runs[0].path("micro"), ["t1", "y0", "area_S", "area_L", "grains_L"])
-    return [row for row in rows if row["t1"] == rows[-1]["t1"] and not math.isnan(row["y0"])]
+    """Heights of the layers of the last window, areas of small and of large grains, numbers of large grains."""
+    table = grseg.read_table(part.runs[0].path("micro"))
+    use = (table["t1"] == table["t1"][-1]) & ~np.isnan(table["y0"])
+    return [table[name][use] for name in ("y0", "area_S", "area_L", "grains_L")]
 
 
 def separation(options, part):
-    """Figure 1: where the large grains are in the last window, and how mixed the species are then."""
-    bed = over_windows(options, part)[-1]
-    last = last_layers(part)
-    small, large = (sum(row[f"area_{s}"] for row in last) for s in "SL")
-    whole = small + large
-    mixed = sum(row["area_S"] * row["area_L"] / (row["area_S"] + row["area_L"]) for row in last if row["area_S"] + row["area_L"])
-    end = bed["yL/H"]
+    """Figure 1: the place of the large grains in the last window, and how mixed the species are then."""
+    end = over_windows(options, part)[-1]["yL/H"]
+    _, areas_small, areas_large, _ = last_layers(part)
+    both = areas_small + areas_large
+    mixed = (areas_small * areas_large / np.where(both, both, 1)).sum()
+    small, large, whole = areas_small.sum(), areas_large.sum(), both.sum()
     return {"way": (end - large / whole / 2) / (small / whole), "mixed": mixed * whole / (small * large)}
 
 
 def trapped(options, part):
     """Large grains in the lowest layer at the end: a row that the base traps, or next to none."""
-    return {"lowest_large": min(last_layers(part), key=lambda row: row["y0"])["grains_L"]}
+    heights, *_, large_grains = last_layers(part)
+    return {"lowest_large": large_grains[heights.argmin()]}
 
 
 def strength(options, runs, *words, name="B"):
-    """B of the runs together, inside."""
+    """B of all runs together, inside."""
     kind = "kinetic" if "kinetic" in words else "stress"
     return tables.fits(options, *(run.path(kind) for run in runs), "--heights", "4dS:56dS",
                        "--over", "windows", "--bootstrap", 0, "--quiet", *words)[0][name]
@@ -99,7 +93,7 @@ def early_less_late(options, part):
 
 
 def differences(options, part):
-    """B and what it is compared with, from the same runs."""
+    """B of the pressure less B of yy, B of kinetic stress over B, and B early less late, from the same runs."""
     b = strength(options, part.runs)
     return {"pressure_less_yy": strength(options, part.runs, "--component", "pressure") - b,
             "B_kappa/B": -strength(options, part.runs, "--quantity", "kinetic", name="paper_B")
@@ -144,8 +138,8 @@ def b_of_structure(options, runs, words):
     with the weights and the range of grseg-fit."""
     sum_log = sum_weight = 0
     for run in runs:
-        _, sums = tables.read(run.path("micro"), ["t0", "y0", "grains_S", "grains_L"])
-        rarer = {(row["t0"], row["y0"]): min(row["grains_S"], row["grains_L"]) for row in sums}
+        sums = grseg.read_table(run.path("micro"))
+        rarer = dict(zip(zip(sums["t0"], sums["y0"]), np.minimum(sums["grains_S"], sums["grains_L"])))
         for row in derived(options, [run], "--heights", "4dS:56dS", *words,
                            columns=["t0", "y0", "frames", "phi_L", "s_Pi"]):
             phi = row["phi_L"]
@@ -185,19 +179,17 @@ def over_time(options, part):
 
 def pushes(_, part):
     """Forces on the large grains inside in thousandths of their weight, upward positive."""
-    header, rows = tables.read(part.runs[0].path("balance"))
-    d = float(header["small_diameter"])
-    rows = [row for row in rows if tables.INSIDE[0] < (row["y0"] + row["y1"]) / 2 / d < tables.INSIDE[1]
-            and part.contains(row) and not math.isnan(row["push"] + row["push_kinetic"] + row["drag"])]
-    weight = -sum(row["gravity_L_y"] for row in rows)
+    names = "push", "push_kinetic", "drag"
+    layers = profiles.Layers([part.runs[0].path("balance")], begin=part.begin, end=part.end, present=names)
+    use = layers.inside()[layers.layer]
+    weight = -layers.rows["gravity_L_y"][use].sum()
     if not weight:
         raise ValueError("no large grains")
-    return {name: 1000 * sum(row[name] for row in rows) / weight
-            for name in ("push", "push_kinetic", "drag")}
+    return {name: 1000 * layers.rows[name][use].sum() / weight for name in names}
 
 
 def collected(options, label, parts, measure):
-    """Rows of the numbers that `measure` finds in each part."""
+    """A row for each number of `measure`: its mean over the parts, with its interval."""
     found, runs = [], set()
     for part in parts:
         try:

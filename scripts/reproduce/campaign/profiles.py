@@ -1,97 +1,101 @@
-"""Layer-by-layer means of stresses over windows, from one flow's tables of grseg-stress and grseg-kinetic."""
+"""Layer-by-layer means over windows, from one flow's tables of grseg-stress and grseg-kinetic, or of grseg-balance."""
+import itertools
 import math
 
-import tables
-from tables import shared
+import numpy as np
+
+import tables  # noqa: F401 (grseg's folder)
+import grseg
 
 CONTACTS = ("A_SS", "A_LL", "M", "A_Sb", "A_Lb")
 
 
-def contact(row, component):
-    """Sum of force (x) branch over all contacts of the layer, J."""
-    return sum(row[f"{part}_{component}"] for part in CONTACTS)
-
-
-def kinetic(row, component, about="profile"):
-    """The same for m dv (x) dv, about the profile of the mean velocity or the mean of the layer."""
-    names = [f"K_{species}_{component}" for species in "SL"]
-    if about == "layer":
-        names += [f"layer_bias_{species}_{component}" for species in "SL"]
-    return sum(row[name] for name in names)
-
-
-def half_trace(tensor, *words):
-    return lambda row: (tensor(row, "xx", *words) + tensor(row, "yy", *words)) / 2
-
-
-def area(row):
-    return row["area_S"] + row["area_L"]
-
-
-def ratio(rows, above, below):
-    """Ratio of two sums over the rows, and its standard error."""
-    return shared.ratio([above(row) for row in rows], [below(row) for row in rows])
-
-
 def last_third(path):
-    """When the last third of a table's time begins, s."""
-    return max(row["t1"] for row in tables.read(path)[1]) * 2 / 3
+    """Begin of the last third of a table's time, s."""
+    return grseg.read_table(path)["t1"].max() * 2 / 3
 
 
-class Profile:
-    """Layers of all windows between begin and end, of one flow's tables."""
+def ratio(above, below, layer):
+    """Ratio of two sums over the rows of each layer, and its standard error; two arrays by layer."""
+    n, total = np.bincount(layer), np.bincount(layer, below)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        value = np.where(total != 0, np.bincount(layer, above) / total, np.nan)
+        left = np.bincount(layer, (above - value[layer] * below) ** 2)
+        return value, np.where(n > 1, np.sqrt(left * n / (n - 1)) / abs(total), np.nan)
 
-    def __init__(self, stress, kinetic_tables=(), begin=-math.inf, end=math.inf):
-        self.header, self.layers = None, {}
-        for k, path in enumerate(stress):
-            head, rows = tables.read(path)
-            self.header = self.header or head
-            moving = tables.read(kinetic_tables[k])[1] if kinetic_tables else []
-            at = {(row["t0"], row["y0"]): row for row in moving}
-            for row in rows:
-                if row["t0"] >= begin - 1e-9 and row["t1"] <= end + 1e-9:
-                    both = {**at.get((row["t0"], row["y0"]), {}), **row}
-                    self.layers.setdefault(round(row["y0"], 9), []).append(both)
-        if not self.layers:
-            raise ValueError("no window lies between --begin and --end")
-        self.with_kinetic = bool(kinetic_tables)
-        self.gx, self.gy = (float(self.header[f"gravity_{axis}"]) for axis in "xy")
+
+class Layers:
+    """Rows of tables, columns by name, whose windows lie between begin and end (s) and which have numbers in the columns
+    `present`. `layer` is the number of each row's layer; y (m), `middle` (d_S) and `windows` belong to the layers.
+
+    `beside`: further tables of the same windows and layers, whose columns are added.
+    """
+
+    def __init__(self, paths, beside=(), begin=-math.inf, end=math.inf, present=()):
+        parts = []
+        for path, other in itertools.zip_longest(paths, beside):
+            table = grseg.read_table(path)
+            use = (table["t0"] >= begin - 1e-9) & (table["t1"] <= end + 1e-9)
+            use &= ~np.isnan(sum((table[name] for name in present), np.zeros(len(table))))
+            columns = {name: table[name][use] for name in table.columns}
+            if other:
+                more = grseg.read_table(other)
+                place = {key: k for k, key in enumerate(zip(more["t0"], more["y0"]))}
+                rows = [place[key] for key in zip(columns["t0"], columns["y0"])]
+                columns |= {name: more[name][rows] for name in more.columns if name not in columns}
+            parts.append(columns)
+            self.header = table.header if len(parts) == 1 else self.header
+        self.rows = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        if not len(self.rows["t0"]):
+            raise ValueError(f"no window between --begin and --end has a layer{' with both species' if present else ''}")
+        self.y, first, self.layer = np.unique(self.rows["y0"].round(9), return_index=True, return_inverse=True)
         self.d = float(self.header["small_diameter"])
+        self.middle = (self.y + self.rows["y1"][first]) / 2 / self.d
+        self.windows = np.bincount(self.layer)
+
+    def inside(self):
+        return (self.middle > tables.INSIDE[0]) & (self.middle < tables.INSIDE[1])
+
+
+class Profile(Layers):
+    """Stresses over height, and the weight that they bear."""
+
+    def __init__(self, stress, kinetic=(), begin=-math.inf, end=math.inf):
+        super().__init__(stress, kinetic, begin, end)
+        self.with_kinetic = bool(kinetic)
+        self.gx, self.gy = (float(self.header[f"gravity_{axis}"]) for axis in "xy")
         self.unit = math.hypot(self.gx, self.gy) * self.d  # rho g d_S, rho = 1 kg/m^2
+        self.area = self.rows["area_S"] + self.rows["area_L"]
+
+    def contact(self, component):
+        """Sum of force (x) branch over all contacts, by row, J."""
+        return sum(self.rows[f"{part}_{component}"] for part in CONTACTS)
+
+    def kinetic(self, component, stems=("K",)):
+        """Sum of m dv (x) dv, by row, J; about the mean of the layer if stems are K and layer_bias, else about the profile."""
+        return sum(self.rows[f"{stem}_{species}_{component}"] for stem in stems for species in "SL")
 
     def height(self):
-        """Of the bed: twice the mean height of the grains' area, m."""
-        rows = [row for each in self.layers.values() for row in each]
-        return sum(area(row) * (row["y0"] + row["y1"]) for row in rows) / sum(map(area, rows))
+        """Height of the bed, m: twice the mean height of the grains' area."""
+        return (self.area * (self.rows["y0"] + self.rows["y1"])).sum() / self.area.sum()
 
     def weights(self):
-        """By layer, the weight of the grains above its middle, per length of the cell, N/m."""
-        windows = max(map(len, self.layers.values()))
-        above, found = 0, {}
-        for y in sorted(self.layers, reverse=True):
-            mass = sum(map(area, self.layers[y])) / windows
-            found[y] = (above + mass / 2) * -self.gy / float(self.header["length"])
-            above += mass
+        """Weight of the grains above the middle of each layer, per length of the cell, N/m."""
+        mass = np.bincount(self.layer, self.area) / self.windows.max()
+        above = mass[::-1].cumsum()[::-1]
+        return (above - mass / 2) * -self.gy / float(self.header["length"])
+
+    def columns(self):
+        """Values and standard errors of the layers by name, stresses in units of rho g d_S."""
+        half_trace = lambda tensor, *stems: (tensor("xx", *stems) + tensor("yy", *stems)) / 2
+        area, volume, pressure = self.area, self.rows["V"], half_trace(self.contact)
+        parts = {"P": (pressure, volume), "P_solid": (pressure, area), "syy": (self.contact("yy"), volume)}
+        if self.with_kinetic:
+            for name, stems in (("K", ("K",)), ("K_layer", ("K", "layer_bias"))):
+                pressure = half_trace(self.kinetic, stems)
+                parts |= {name: (pressure, volume), f"{name}_solid": (pressure, area)}
+        found = {name: [x / self.unit for x in ratio(*pair, self.layer)] for name, pair in parts.items()}
+        found |= {"nu": ratio(area, volume, self.layer), "phi_L": ratio(self.rows["area_L"], area, self.layer)}
+        if self.with_kinetic:
+            found["Kyy/syy"] = ratio(self.kinetic("yy"), self.contact("yy"), self.layer)
         return found
-
-    def columns(self, y):
-        """Triples of name, value and standard error of one layer, in units of rho g d_S."""
-        rows, pressure, volume = self.layers[y], half_trace(contact), lambda row: row["V"]
-        found = {"P": (pressure, volume), "P_solid": (pressure, area),
-                 "syy": (lambda row: contact(row, "yy"), volume)}
-        if self.with_kinetic:
-            about_layer = half_trace(kinetic, "layer")
-            found.update({"K": (half_trace(kinetic), volume), "K_solid": (half_trace(kinetic), area),
-                          "K_layer": (about_layer, volume), "K_layer_solid": (about_layer, area)})
-        columns = [(name, *(x / self.unit for x in ratio(rows, above, below)))
-                   for name, (above, below) in found.items()]
-        columns.append(("nu", *ratio(rows, area, volume)))
-        columns.append(("phi_L", *ratio(rows, lambda row: row["area_L"], area)))
-        if self.with_kinetic:
-            columns.append(("Kyy/syy", *ratio(rows, lambda row: kinetic(row, "yy"),
-                                              lambda row: contact(row, "yy"))))
-        return columns
-
-    def middle(self, y):
-        """Height of a layer's middle, d_S."""
-        return (y + self.layers[y][0]["y1"]) / 2 / self.d

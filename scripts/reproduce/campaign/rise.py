@@ -1,28 +1,31 @@
-"""Why B depends on the mixture: B taken apart, and its trend over mixtures where layers are alike.
+"""The dependence of B on the mixture: B as a product of factors, and its trend over mixtures where layers are alike.
 
 From the sums of grseg-micro, merged into windows of WINDOW s, layers inside. With psi = sigma^L/sigma (yy, rule size), M the
 stress of mixed contacts and q = phi_L phi_S, sums over layers and windows weighted by frames give B as a product of
 three factors, exactly, and without the bias of the logarithm of a ratio of few grains:
 
     B            = sum(psi - phi_L)/sum(q) = beyond x mixed x geometry
-    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: what a mixed contact gives its large grain beyond the
+    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: the large grain's share of a mixed contact, less the
                    share at which B = 0
-    mixed        = sum(M/sigma)/sum(the same of neutral contacts)
-    geometry     = sum(the same of neutral contacts)/sum(q); of neutral contacts M/sigma = q (1 + r)/(phi_L + r phi_S)
+    mixed        = sum(M/sigma)/sum(M/sigma of neutral contacts)
+    geometry     = sum(M/sigma of neutral contacts)/sum(q); for neutral contacts M/sigma = q (1 + r)/(phi_L + r phi_S)
 
 and, in means of logarithms of layers with FEW grains or more of each species, weighted by q, four terms whose sum is
--ln s of sigma_yy, s = r (z_S/z_L)(f_S/f_L) being that of the pressure (paper's last equation of section V), over contact
+-ln s of sigma_yy; s = r (z_S/z_L)(f_S/f_L) belongs to the pressure (paper's last equation of section V), over contact
 ends, with normal forces:
 
     ends         = -ln(r z_S/z_L)
     forces       = -ln(f_S/f_L) if the ends that there are paired at random, each pair with its mean force
     pairing      = -ln(f_S/f_L) - forces
-    normal       = what sigma_yy has beyond the sum of these, that is beyond the pressure
+    normal       = the rest of sigma_yy, by which it differs from the pressure
 """
 import math
 import statistics
 
+import numpy as np
+
 import tables
+import grseg
 
 WINDOW, LONG_WINDOW = 5, 25  # s; in the longer one phi_L scatters less
 FEW = 3
@@ -34,135 +37,111 @@ ALIKE = ((), ("phi",), ("y",), ("gradient",), ("phi", "y"), ("phi", "y", "t"), (
 FROM = 0.3  # Phi_L; below, layers hold few large grains
 
 
-class Layer:
-    """Sums of one layer over the frames of a window; r is the ratio of diameters."""
-
-    def __init__(self, rows, d, r):
-        total = lambda *names: sum(row["frames"] * row[name] for row in rows for name in names)
-        self.frames = sum(row["frames"] for row in rows)
-        self.y, self.t = (rows[0]["y0"] + rows[0]["y1"]) / 2 / d, rows[0]["t0"]
-        self.area_s, self.area_l = total("area_S"), total("area_L")
-        self.grains = min(total("grains_S"), total("grains_L")) / self.frames
-        self.n = {pair: total(f"n_{pair}") for pair in PAIRS}
-        self.f = {pair: total(f"sum_fn_{pair}") for pair in PAIRS}
-        large = total("A_LL_yy", "A_Lb_yy", "Msize_yy")
-        self.stress = total("A_SS_yy", "A_Sb_yy", "M_yy", "A_LL_yy", "A_Lb_yy") - large, large  # small, large
-        self.phi, self.r, self.gradient = self.area_l / (self.area_s + self.area_l), r, math.nan
-        self.q = self.phi * (1 - self.phi)
-        whole = sum(self.stress) or math.nan
-        self.excess = self.stress[1] / whole - self.phi
-        self.mixed, self.by_size = total("M_yy") / whole, total("Msize_yy") / whole
-        self.neutral = self.q * (1 + r) / (self.phi + r * (1 - self.phi))
-
-    def ends(self):
-        """Contact ends on small and on large grains."""
-        return 2 * self.n["SS"] + self.n["LS"] + self.n["Sb"], 2 * self.n["LL"] + self.n["LS"] + self.n["Lb"]
-
-    def terms(self):
-        """ends, forces, pairing, normal; ValueError or ZeroDivisionError where a kind of contact is missing."""
-        small, large = self.ends()
-        grains_ratio = self.r ** 2 * self.area_s / self.area_l
-        ends = -math.log(self.r * small / large / grains_ratio)
-        whole = -math.log((2 * self.f["SS"] + self.f["LS"] + self.f["Sb"]) / small
-                          / ((2 * self.f["LL"] + self.f["LS"] + self.f["Lb"]) / large))
-        mean = {pair: self.f[pair] / self.n[pair] for pair in ("SS", "LS", "LL")}
-        forces = -math.log((small * mean["SS"] + large * mean["LS"]) / (small * mean["LS"] + large * mean["LL"]))
-        yy = -math.log(self.stress[0] / self.stress[1] * self.area_l / self.area_s)
-        return {"ends": ends, "forces": forces, "pairing": whole - forces, "normal": yy - ends - whole}
-
-
 def layers_of(path, window=WINDOW):
-    """Layers inside, with both species, of one run's table of grseg-micro, in windows of so many seconds."""
-    header, rows = tables.read(path)
-    d, large = float(header["small_diameter"]), float(header["large_diameter"])
-    groups = {}
-    for row in rows:
-        if not math.isnan(row["y0"]) and row["area_S"] + row["area_L"] > 0:
-            groups.setdefault((int(row["t0"] / window + 1e-6), round(row["y0"] / d, 6)), []).append(row)
-    found = {key: Layer(group, d, large / d) for key, group in groups.items()}
-    for (t, y), layer in found.items():
-        thickness = (groups[t, y][0]["y1"] - groups[t, y][0]["y0"]) / d
-        below, above = (found.get((t, round(y + step * thickness, 6))) for step in (-1, 1))
-        if below and above:
-            layer.gradient = (above.phi - below.phi) / (2 * thickness)
-    return [layer for layer in found.values() if tables.INSIDE[0] < layer.y < tables.INSIDE[1] and layer.q > 0
-            and not math.isnan(layer.excess)]
+    """Layers inside, with both species, of one run's table of grseg-micro, in windows of so many seconds.
+
+    A record array of sums over the frames of a window: contents, contacts n_ and normal forces f_ by pair, stresses `small` and
+    `large`; and of what follows from them. r is the ratio of diameters."""
+    table = grseg.read_table(path)
+    d = table.number("small_diameter")
+    r = table.number("large_diameter") / d
+    use = ~np.isnan(table["y0"]) & (table["area_S"] + table["area_L"] > 0)
+    column = lambda name: table[name][use]
+    at = np.column_stack([np.floor(column("t0") / window + 1e-6), (column("y0") / d).round(6)])
+    at, first, group = np.unique(at, axis=0, return_index=True, return_inverse=True)
+    total = lambda *names: np.bincount(group.ravel(), column("frames") * sum(map(column, names)))
+    of = {"frames": np.bincount(group.ravel(), column("frames")), "t": column("t0")[first],
+          "y": (column("y0") + column("y1"))[first] / 2 / d, "r": np.full(len(at), r),
+          "area_S": total("area_S"), "area_L": total("area_L"), "large": total("A_LL_yy", "A_Lb_yy", "Msize_yy")}
+    of |= {f"n_{pair}": total(f"n_{pair}") for pair in PAIRS} | {f"f_{pair}": total(f"sum_fn_{pair}") for pair in PAIRS}
+    whole = total("A_SS_yy", "A_Sb_yy", "M_yy", "A_LL_yy", "A_Lb_yy")
+    whole[whole == 0] = np.nan
+    phi = of["area_L"] / (of["area_S"] + of["area_L"])
+    q, thickness = phi * (1 - phi), (column("y1") - column("y0"))[first] / d
+    of |= {"grains": np.minimum(total("grains_S"), total("grains_L")) / of["frames"], "small": whole - of["large"], "phi": phi, "q": q,
+           "excess": of["large"] / whole - phi, "mixed": total("M_yy") / whole, "by_size": total("Msize_yy") / whole,
+           "neutral": q * (1 + r) / (phi + r * (1 - phi)), "gradient": np.full(len(at), np.nan)}
+    step = np.diff(at, axis=0)
+    joined = (step[:, 0] == 0) & (abs(step[:, 1] - thickness[:-1]) < 2e-6)
+    between = np.flatnonzero(joined[1:] & joined[:-1]) + 1  # layers above one and below another
+    of["gradient"][between] = (phi[between + 1] - phi[between - 1]) / (2 * thickness[between])
+    layers = np.rec.fromarrays(list(of.values()), names=list(of))
+    low, high = tables.INSIDE
+    return layers[(layers.y > low) & (layers.y < high) & (layers.q > 0) & ~np.isnan(layers.excess)]
 
 
-def total(layers, name):
-    return sum(layer.frames * getattr(layer, name) for layer in layers)
+def ends(layers):
+    """Contact ends on small and on large grains."""
+    return 2 * layers.n_SS + layers.n_LS + layers.n_Sb, 2 * layers.n_LL + layers.n_LS + layers.n_Lb
+
+
+def logarithms(layers):
+    """ends, forces, pairing, normal of each layer; not finite where a kind of contact is missing."""
+    small, large = ends(layers)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        by_ends = -np.log(small / large / (layers.r * layers.area_S / layers.area_L))
+        whole = -np.log((2 * layers.f_SS + layers.f_LS + layers.f_Sb) / small
+                        / ((2 * layers.f_LL + layers.f_LS + layers.f_Lb) / large))
+        ss, ls, ll = (layers[f"f_{pair}"] / layers[f"n_{pair}"] for pair in ("SS", "LS", "LL"))
+        forces = -np.log((small * ss + large * ls) / (small * ls + large * ll))
+        yy = -np.log(layers.small / layers.large * layers.area_L / layers.area_S)
+        return {"ends": by_ends, "forces": forces, "pairing": whole - forces, "normal": yy - by_ends - whole}
 
 
 def factors(layers):
-    excess, mixed, neutral, q = (total(layers, name) for name in ("excess", "mixed", "neutral", "q"))
+    excess, mixed, neutral, q, by_size = ((layers.frames * layers[name]).sum() for name in ("excess", "mixed", "neutral", "q", "by_size"))
     return {"B": excess / q, "beyond": excess / mixed, "mixed": mixed / neutral, "geometry": neutral / q,
-            "p_star": (total(layers, "by_size") - excess) / mixed}
+            "p_star": (by_size - excess) / mixed}
 
 
 def terms(layers):
-    """Means of the logarithmic terms, and of who touches whom."""
-    sums, weight = {}, 0
-    for layer in layers:
-        if layer.grains < FEW:
-            continue
-        try:
-            each = layer.terms()
-        except (ValueError, ZeroDivisionError):
-            continue
-        weight += layer.frames * layer.q
-        for name, value in each.items():
-            sums[name] = sums.get(name, 0) + layer.frames * layer.q * value
-    found = {name: value / weight for name, value in sums.items()}
-    count = lambda layer: sum(layer.n[pair] for pair in ("SS", "LS", "LL"))
-    mixed = sum(layer.n["LS"] for layer in layers)
-    x = lambda layer: layer.phi / (layer.phi + layer.r * (1 - layer.phi))
-    neutral = sum(2 * x(layer) * (1 - x(layer)) * count(layer) for layer in layers)
-    e = lambda layer: (2 * layer.n["LL"] + layer.n["LS"]) / (2 * count(layer))
-    random = sum(2 * e(layer) * (1 - e(layer)) * count(layer) for layer in layers if count(layer))
+    """Means of the logarithmic terms, and numbers of mixed contacts over those of neutral and of random pairs."""
+    each = logarithms(layers)
+    use = (layers.grains >= FEW) & np.isfinite(sum(each.values()))
+    weight = (layers.frames * layers.q)[use]
+    found = {name: (weight * values[use]).sum() / weight.sum() for name, values in each.items()}
+    count = layers.n_SS + layers.n_LS + layers.n_LL
+    x = layers.phi / (layers.phi + layers.r * (1 - layers.phi))
+    e = (2 * layers.n_LL + layers.n_LS) / (2 * np.where(count, count, 1))
+    mixed, neutral, random = layers.n_LS.sum(), *((2 * part * (1 - part) * count).sum() for part in (x, e))
     return {**found, "log": sum(found.values()), "LS/neutral": mixed / neutral, "LS/random": mixed / random}
-
-
-def class_of(layer, names):
-    return tuple(sum(getattr(layer, name) >= edge for edge in CLASSES[name]) for name in names)
 
 
 def trend_where_alike(mixtures, names):
     """Slope of B over Phi_L within classes of layers: least squares, weighted by frames times q, with a level of its
     own for each class. `mixtures` are pairs of Phi_L and layers."""
-    classes = {}
-    for phi, layers in mixtures:
-        for layer in layers:
-            if not math.isnan(layer.gradient):
-                classes.setdefault(class_of(layer, names), []).append((phi, layer))
-    above = below = 0
-    for members in classes.values():
-        middle = sum(phi * layer.frames * layer.q for phi, layer in members) / total([layer for _, layer in members], "q")
-        above += sum((phi - middle) * layer.frames * layer.excess for phi, layer in members)
-        below += sum((phi - middle) ** 2 * layer.frames * layer.q for phi, layer in members)
-    return above / below
+    layers = np.concatenate([layers for _, layers in mixtures]).view(np.recarray)
+    phi = np.repeat([phi for phi, _ in mixtures], [len(layers) for _, layers in mixtures])
+    known = ~np.isnan(layers.gradient)
+    layers, phi = layers[known], phi[known]
+    classes = np.column_stack([np.zeros(len(layers))] + [np.digitize(layers[name], CLASSES[name]) for name in names])
+    group = np.unique(classes, axis=0, return_inverse=True)[1].ravel()
+    weight = layers.frames * layers.q
+    middle = np.bincount(group, weight * phi) / np.bincount(group, weight)
+    off = phi - middle[group]
+    return (off * layers.frames * layers.excess).sum() / (off**2 * weight).sum()
 
 
 def both(label, mixtures, slope):
-    """A slope over Phi_L of all mixtures, and of those from FROM on."""
+    """A slope over Phi_L of all mixtures, and of the mixtures from FROM on."""
     parts = {label: mixtures, f"upper_{label}": [pair for pair in mixtures if pair[0] >= FROM]}
     return {name: slope(part) for name, part in parts.items() if len(part) > 1}
 
 
 def mixture(layers):
-    """Of the layers of one run: everything that is said of a mixture."""
-    early, late = ([layer for layer in layers if begin <= layer.t < end]
-                   for begin, end in ((0, tables.EARLY), (tables.LATE, math.inf)))
+    """All numbers of a mixture, from the layers of one run."""
+    early, late = layers[layers.t < tables.EARLY], layers[layers.t >= tables.LATE]
     found = {**factors(layers), **terms(layers)}
-    if early and late:
+    if len(early) and len(late):
         found["early_less_late"] = factors(early)["B"] - factors(late)["B"]
     return {f"rise_{name}": value for name, value in found.items()}
 
 
 def trends(mixtures, long):
-    """Of one seed of each mixture: slopes over Phi_L, of all mixtures and of those from FROM on; B if p_size - p* were
-    that of all together; slopes where layers are alike, of equal phi_L also in the windows of `long`."""
+    """Trends over one seed of each mixture: slopes over Phi_L, of all mixtures and of the mixtures from FROM on; B of each if
+    `beyond` of all together held; slopes where layers are alike, of equal phi_L also in the windows of `long`."""
     parts = [(phi, {**factors(layers), **terms(layers)}) for phi, layers in mixtures]
-    found = {"beyond": factors([layer for _, layers in mixtures for layer in layers])["beyond"]}
+    found = {"beyond": factors(np.concatenate([layers for _, layers in mixtures]).view(np.recarray))["beyond"]}
     for phi, part in parts:
         part["one"] = found["beyond"] * part["mixed"] * part["geometry"]
         found[f"one_{phi:g}"] = part["one"]
