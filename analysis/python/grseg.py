@@ -10,13 +10,13 @@
     print(grseg.Points(sums).fit("size").B)
 
 Units are SI; x points down the slope, y up from the base, z across; D is 2 (discs) or 3 (spheres);
-stress is in N/m or Pa, positive in compression (formats/README.md). Sums are those of grseg-stress
-and grseg-kinetic with their default assignment, and estimates those of grseg-fit, all to round-off.
+stress is in N/m or Pa, positive in compression (formats/README.md). Sums agree to round-off with
+grseg-stress and grseg-kinetic and their default assignment, estimates with grseg-fit.
 
-Not here, because the tools do it: digests are NOT verified (grseg-check RUN.h5 does that), nor the
-checksum in the last line of a table; intervals over several flows (grseg-fit); --assign, --bins, --group.
+The tools do more: grseg-check RUN.h5 verifies digests, which are NOT verified here, nor is the checksum
+in the last line of a table; grseg-fit has intervals over several flows; --assign, --bins, --group.
 
-A file that is damaged, unfinished or none of grseg raises grseg.Error, a wrong argument ValueError.
+A file that is damaged, unfinished or not made by grseg raises grseg.Error, a wrong argument ValueError.
 """
 import collections
 import dataclasses
@@ -35,14 +35,14 @@ __all__ = ["Run", "Frame", "Contacts", "Species", "Window", "Table", "Points", "
 
 
 class Error(Exception):
-    """What is wrong with a file, where, and the remedy, in one sentence."""
+    """A sentence that names the file, the place and the fault, and a remedy."""
 
 
 Species = collections.namedtuple("Species", "name diameter")
 Species.__doc__ = "Name and nominal diameter (m; 0: unknown) of a mobile species."
 
 Window = collections.namedtuple("Window", "begin end frames")
-Window.__doc__ = "Frames that are averaged together: from begin to end (s), and their numbers."
+Window.__doc__ = "Frames that are averaged together: from begin to end (s), with their numbers."
 
 
 # -------------------------------------------------------------------------------------- reading
@@ -50,35 +50,35 @@ Window.__doc__ = "Frames that are averaged together: from begin to end (s), and 
 _FOREIGN = "not a run of grseg, or damaged; grseg-import makes runs of other programs' archives"
 _UNFINISHED = ("the run has not ended, or its end was lost: give unfinished=True to read the frames that it has "
                "(grseg-check tells whether they are whole)")
-_OF_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)  # of h5py
+_OF_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)  # that h5py raises
 _ROWS_OF_BLOCK = 1 << 16  # contacts or grains that are read at a time
 
 
 class Run:
     """A trajectory file of version 1.0, open for reading.
 
-    path         its name
-    version      of the file, "1.0"
-    finished     whether its program came to the end and closed it
+    path         name of the file
+    version      version of the file, "1.0"
+    finished     True if its program came to the end and closed it
     dimension    D, 2 or 3
     species      the mobile Species in order of size; number k stands for species[k]
     radius, mass, id [N]    of the grains (m, kg), the same in all frames
-    kind [N]     number of a grain's species, len(species) for those of the boundary
-    mobile [N]   whether a grain belongs to the flow; fixed ones and the boundary do not
+    kind [N]     number of a grain's species, len(species) for boundary grains
+    mobile [N]   True for grains of the flow, False for fixed ones and the boundary
     length, width           of the cell along x and z (m); width is None in two dimensions
-    periodic     whether the cell is periodic along each axis
-    steps, times [F]        of the frames (s)
+    periodic     True for each axis along which the cell is periodic
+    steps, times [F]        numbers of time steps, and times (s), of the frames
     step         length of a time step (s)
     gravity [D]  at t = 0 (m/s^2); `gravity_at` follows a slope that changes
     small_diameter, large_diameter    nominal, of the first and last species (m)
     parameters   all of /parameters by name: float, array or text
     history      one line per program that touched the data
-    observables  names of what `observable` gives
-    has_force    whether frames have the force on each grain
-    digest       the content digest of the run, as tables give it; not verified here
+    observables  names for `observable`
+    has_force    True if frames have the force on each grain
+    digest       the content digest of the run, as in tables; not verified here
 
     A run that goes on, or was killed, is refused unless `unfinished`: then the frames that were
-    committed are read. (Where such a file is damaged, too, HDF5 may wait for ever for its writer: let
+    committed are read. (If such a file is damaged, too, HDF5 may wait for ever for its writer: let
     grseg-check read it first.) Close a run by `with`, or by `close`.
     """
 
@@ -110,7 +110,7 @@ class Run:
         return self.frames()
 
     def __getitem__(self, number):
-        """The Frame of this number; from the end where it is negative."""
+        """The Frame of this number; negative numbers count from the end."""
         if not -len(self) <= number < len(self):
             raise IndexError(f"{self.path}: frame {number} of {len(self)}")
         number %= len(self)
@@ -122,14 +122,14 @@ class Run:
     def frames(self, begin=None, end=None, stride=1):
         """Yields the frames with begin <= t < end (s; None: all), one in `stride`, one by one.
 
-        What of a frame is used is read when it is used, for some frames at a time, so that memory does
-        not grow with the run."""
+        A field is read when it is first used, for some frames at a time, so that memory does not grow
+        with the run."""
         for block in self._blocks(self._numbers(begin, end, stride)):
             for k in range(block.last - block.first):
                 yield Frame(block, k)
 
     def gravity_at(self, time):
-        """Gravity [D] at `time` (s), m/s^2: that of t = 0 where the slope is fixed."""
+        """Gravity [D] at `time` (s), m/s^2; the same at all times where the slope is fixed."""
         angle = math.radians(self.parameters.get("slope_rate", 0.0)) * max(time, 0.0)
         turned = self.gravity.copy()
         turned[0] = math.cos(angle) * self.gravity[0] - math.sin(angle) * self.gravity[1]
@@ -143,13 +143,13 @@ class Run:
         return self._read(f"observables/{name}/value", 0, len(self))
 
     def metres(self, text):
-        """0.02 of 0.02, "20mm", "2cm", "4dS" or "2dL", nominal diameters."""
+        """A length in m, given as a number or as text: 0.02, "20mm", "2cm", "4dS" or "2dL" (nominal diameters)."""
         return _metres(text, self.small_diameter, self.large_diameter)
 
     def windows(self, length=1.25, begin=None, end=None, stride=1):
-        """The windows that the tools make, a list of Window: those of `length` (s) from `begin` on
-        (default: t = 0, or the first frame if that is later) that the run fills up to `end`; "all" is one
-        window over all frames used."""
+        """The windows that the tools make, a list of Window: each of `length` (s), one after the other from
+        `begin` on (default: t = 0, or the first frame if that is later), as far as the run fills them up to
+        `end`. "all" is one window over all frames used."""
         return _cut_into_windows(self, length, begin, end, stride)[1]
 
     def contact_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, power=None):
@@ -162,15 +162,15 @@ class Run:
 
     def kinetic_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, mean="profile"):
         """The sums of m dv (x) dv by layer, window and species, as a Table with columns of
-        grseg-kinetic: masses, mean flow, K (J), Kr of rotation (J), numbers of grains. `mean` is what dv
-        is counted from: "profile", a fine profile over height, or "layer", the mean of the layer; both
-        over the window, whose frames are read twice."""
+        grseg-kinetic: masses, mean flow, K (J), Kr of rotation (J), numbers of grains. dv is the velocity
+        less `mean`: "profile", a fine profile over height, or "layer", the mean of the layer; both are
+        means over the window, whose frames are read twice."""
         if mean not in ("profile", "layer"):
             raise ValueError(f"mean = {mean!r}: profile or layer; grseg-kinetic knows more")
         return self._tabulate(functools.partial(_kinetic_sums, self, mean=mean), _kinetic_columns(self), layer,
                               (window, begin, end, stride), {"mean": mean})
 
-    # What is below is for this file alone.
+    # Functions from here on are used in this file alone.
 
     def _fail(self, why):
         raise Error(f"{self.path}: {why}")
@@ -181,7 +181,7 @@ class Run:
                 head = file.read(12)
         except OSError as error:
             self._fail(error.strerror)
-        # The superblock says whether a writer has the file open in SWMR mode, or was killed while it had.
+        # The superblock is marked while a writer has the file open in SWMR mode, and after it was killed.
         has_writer = head[:9] == b"\x89HDF\r\n\x1a\n\x03" and head[11:] != b"" and head[11] & 5 == 5
         if has_writer and not unfinished:
             self._fail(_UNFINISHED)
@@ -193,7 +193,7 @@ class Run:
             return self._fail("is not an HDF5 file, or is truncated or damaged; take a copy that is whole")
 
     def _dataset(self, path, rank, kinds="f"):
-        """A dataset of this number of dimensions, whose numbers or texts are of one of these kinds."""
+        """A dataset with this number of dimensions, and a type of one of these kinds of numpy."""
         try:
             dataset = self._file[path]
         except _OF_DAMAGE:
@@ -249,8 +249,8 @@ class Run:
             self._fail(f"/h5md/modules/grseg has no version: {_FOREIGN}")
         self.version = f"{major}.{minor}"
         if self.version != "1.0":
-            self._fail(f"/h5md/modules/grseg has version {self.version}, and this grseg.py reads 1.0; take that of "
-                       "the grseg which wrote the file")
+            self._fail(f"/h5md/modules/grseg has version {self.version}, and this grseg.py reads 1.0; take the "
+                       "grseg.py of the grseg that wrote the file")
 
     def _read_parameters(self):
         self.parameters = {}
@@ -297,7 +297,7 @@ class Run:
         if not ((self.kind >= 0) & (self.kind <= len(self.species))).all():
             self._fail("/particles/grains/species names a species that is not listed; the file is damaged")
         self.mobile = (self.kind < len(self.species)) & (fixed == 0)
-        # Of the second grain of a contact, where the last entry stands for straight walls.
+        # Kind and radius of the second grain of a contact; the last entry, at -1, is for straight walls.
         self._partner_kind = np.append(np.where(self.mobile, self.kind, len(self.species)), len(self.species))
         self._partner_radius = np.append(self.radius, np.nan)
 
@@ -322,7 +322,7 @@ class Run:
             self._fail("/particles/grains/position: steps or times do not increase; the file is damaged")
 
     def _read_end(self):
-        """Whether the run was closed, and of what."""
+        """Reads the digest, and the seal of a run that was closed."""
         digests = self._dataset("grseg/digest", 1, "u")
         if len(digests) < len(self):
             self._fail(f"/grseg/digest has no entry for frame {len(self) - 1}; the file is damaged")
@@ -341,7 +341,7 @@ class Run:
         return range(int(first), int(last), stride)
 
     def _blocks(self, numbers):
-        """Consecutive frames together, as many as have _ROWS_OF_BLOCK rows."""
+        """Yields blocks of consecutive frames with at most _ROWS_OF_BLOCK rows, or of a single frame."""
         numbers = iter(numbers)
         first = next(numbers, None)
         while first is not None:
@@ -383,7 +383,7 @@ def _metres(text, small_diameter, large_diameter):
 
 
 class _Block:
-    """Frames [first, last) of a run. Fields are read when they are used, checked, and kept; nobody can change them."""
+    """Frames [first, last) of a run. A field is read and checked when it is first used, then kept, read-only."""
 
     def __init__(self, run, first, last):
         self.run, self.first, self.last = run, first, last
@@ -399,7 +399,7 @@ class _Block:
         return self._field(f"particles/grains/{name}/value", self.first, self.last, self._require_finite_grains)
 
     def contacts(self, name):
-        """A field of the contacts [C, ...], those of one frame after those of the other."""
+        """A field of the contacts [C, ...], frame by frame."""
         return self._field(f"grseg/contacts/{name}", self.rows.start, self.rows.stop,
                            self._require_rows if name in ("i", "j") else self._require_finite)
 
@@ -412,27 +412,27 @@ class _Block:
 
     @functools.cached_property
     def frame_of_contact(self):
-        """Number, in the block, of the frame of each contact [C]."""
+        """The frame of each contact [C], as a number in the block."""
         return np.repeat(np.arange(self.last - self.first), np.diff(self.offset))
 
     @functools.cached_property
     def heights(self):
-        """y of all grains of all frames, one frame after the other [F N]."""
+        """y of all grains, frame by frame [F N], m."""
         return self.grains("position")[..., 1].ravel()
 
     @functools.cached_property
     def present(self):
-        """Mobile grains that are there [F, N]."""
+        """True for mobile grains that are present [F, N]."""
         return self.run.mobile & ~np.isnan(self.grains("position")[..., 1])
 
     @functools.cached_property
     def mobile_grains(self):
-        """Of all mobile grains that are there, frame by frame: place in `heights`, and row."""
+        """Places in `heights`, and rows, of all mobile grains that are present, frame by frame."""
         place = np.flatnonzero(self.present)
         return place, np.tile(np.arange(len(self.run.radius)), self.last - self.first).take(place)
 
     def _place(self, contact):
-        """Of a contact of the block: "contact 3 of frame 17"."""
+        """Name of a contact of the block: "contact 3 of frame 17"."""
         frame = np.searchsorted(self.offset, contact, side="right") - 1
         return f"contact {contact - self.offset[frame]} of frame {self.first + frame}"
 
@@ -442,7 +442,7 @@ class _Block:
             self._fail_at(self._place(np.argwhere(~good)[0][0]), path)
 
     def _require_finite_grains(self, values, path):
-        """Absent grains have NaN in all fields."""
+        """Fails where a grain is not finite; absent grains have NaN in all components."""
         good = np.isfinite(values).reshape(*values.shape[:2], -1)
         if good.all():
             return
@@ -466,23 +466,23 @@ class _Block:
             bad |= (values >= 0) & np.isnan(self.heights[place])
         if bad.any():
             contact = np.flatnonzero(bad)[0]
-            self.run._fail(f"/{path} is {values[contact]} in {self._place(contact)}, which is not a row of a grain "
-                           "that can stand there; the frame is damaged")
+            self.run._fail(f"/{path} is {values[contact]} in {self._place(contact)}, which is not the row of a grain "
+                           "that can have a contact; the frame is damaged")
 
 
 class Frame:
-    """One step of a run, frozen (imported runs: an instant). Time, positions and contacts are those in the
-    middle of the step, velocities those at its end. Arrays are read-only.
+    """A frame: one time step of a run, or an instant of an imported one. Time, positions and contacts are
+    taken in the middle of the step, velocities at its end. Arrays are read-only.
 
     number, step, time (s)
     position [N, D]             m, wrapped into the cell
     image [N, D]                periods to add to it
     velocity [N, D]             m/s
     angular_velocity [N], in three dimensions [N, 3]    1/s, counter-clockwise, right-handed
-    force [N, D]                N, m (v_after - v_before)/h: contact forces and weight; not of all imports
-    present [N]                 mobile grains that are there; all mobile ones, unless grains come and go
+    force [N, D]                N, m (v_after - v_before)/h: contact forces and weight; not in all imported runs
+    present [N]                 True for mobile grains that are present: all of them, unless grains come and go
     contacts                    Contacts
-    coordination() [N]          contacts of each grain that bear a force, those with base and walls too
+    coordination() [N]          number of contacts of each grain that bear a force, base and walls included
     """
 
     def __init__(self, block, k):
@@ -506,18 +506,18 @@ class Frame:
 
 
 class Contacts:
-    """The contacts of a frame. Pairs without force are among them, of contact dynamics also pairs that may soon touch: take means
-    over the contacts that push.
+    """The contacts of a frame. Some bear no force, and runs of contact dynamics also list pairs that may soon
+    touch: take means over the contacts that are `pushing`.
 
     i [C]            row of the first grain, a mobile one
     j [C]            row of the second; j < 0: straight wall number -j-1
     force [C, D]     N, ON i FROM j
     branch [C, D]    m, x_i - x_j, nearest image; at a wall x_i less the contact point
     gap [C]          m, negative where the two overlap
-    pushing [C]      whether they bear a force, as all contacts that the tools count
+    pushing [C]      True if they bear a force; the tools count only these
     kind_i, kind_j [C]    numbers of their species; len(species) for base and walls
     share_i [C]      part of the branch between the centre of i and the contact point; 1 at a wall
-    point [C, D]     m, where they touch: x_i - share_i branch
+    point [C, D]     m, the contact point: x_i - share_i branch
 
     sigma = (1/V) sum of force (x) branch is positive in compression.
     """
@@ -552,15 +552,15 @@ def _share_of_first(run, i, j, gap):
 # ----------------------------------------------------------------------------- windows and layers
 
 def _whole_steps(time, step):
-    """A time in whole steps, so that no rounding moves a frame across it."""
+    """A time in whole steps, nearest, so that round-off moves no frame across it."""
     return int(math.copysign(math.floor(abs(time / step) + 0.5), time))
 
 
 def _longest_interval(run, gaps):
-    """How many steps a frame stands for at most: longest_interval() of analysis/frames/windows.cpp."""
+    """Largest number of steps that a frame stands for: longest_interval() of analysis/frames/windows.cpp."""
     gaps = sorted((int(gap) for gap in gaps), reverse=True)
     interval = 0
-    if "import_format" not in run.parameters:  # of an import it is a mean
+    if "import_format" not in run.parameters:  # in imported runs it is only a mean
         interval = _whole_steps(run.parameters.get("frame_interval", 0.0), run.step)
     if interval > 0:
         found = next((gap for gap in gaps if gap <= interval), 0)
@@ -570,14 +570,14 @@ def _longest_interval(run, gaps):
 
 
 def _empty_part(steps, longest, begin, length):
-    """For how many steps of a window no frame stands; what precedes the first one counts as filled."""
+    """Number of steps in a window for which no frame stands; the time before the first frame counts as filled."""
     before, inside = steps[steps <= begin], steps[(steps > begin) & (steps < begin + length)]
     filled = np.append(before[-1] + longest if len(before) else steps[0], inside + longest)
     return np.maximum(np.append(inside, begin + length) - np.maximum(filled, begin), 0).sum()
 
 
 def _cut_into_windows(run, length, begin, end, stride):
-    """The length of the windows and these, as cut_into_windows() of analysis/frames/windows.cpp has them."""
+    """The windows and their length, as cut_into_windows() of analysis/frames/windows.cpp makes them."""
     length = math.inf if length == "all" else length
     if not (length > 0 and stride >= 1):
         raise ValueError(f"a window of {length} s, stride {stride}: they should be positive")
@@ -623,8 +623,8 @@ def _cut_into_windows(run, length, begin, end, stride):
 
 
 class _Layers:
-    """Layer n is [n h, (n+1) h); the first also takes all that is below, the last of a frame all that is
-    above (analysis/frames/layers.hpp)."""
+    """Layers of thickness h: layer n is [n h, (n+1) h). The first layer also holds everything below it, the
+    last one of a frame everything above it (analysis/frames/layers.hpp)."""
 
     def __init__(self, thickness, length, width, path):
         if not 0 < thickness < math.inf:
@@ -639,13 +639,13 @@ class _Layers:
         """Numbers of the layers that hold these heights."""
         y = np.maximum(y, 0)
         n = np.floor(y * (1 / self.h))
-        # That may be rounded to the wrong side of an edge.
+        # The product may be rounded to the wrong side of an edge.
         n -= y < n * self.h
         n += y >= (n + 1) * self.h
         return n.astype(np.int64)
 
     def counts(self, block):
-        """How many layers the highest mobile grain of each frame reaches, at least 1."""
+        """Number of layers up to the top of the highest mobile grain of each frame, at least 1."""
         top = block.grains("position")[..., 1] + block.run.radius
         highest = np.where(block.present, top, 0.0).max(axis=1, initial=0.0)
         if not (highest < 100000 * self.h).all():
@@ -657,7 +657,7 @@ class _Layers:
 
 
 def _grow(sums, layers):
-    """An array by layer, with zeros for those that are new."""
+    """An array by layer with at least `layers` layers; new ones are zero."""
     missing = layers - len(sums)
     return sums if missing <= 0 else np.concatenate([sums, np.zeros((missing, *sums.shape[1:]))])
 
@@ -672,7 +672,7 @@ def _book(sums, place, components):
 # ------------------------------------------------------------------------------------------- sums
 
 class _Names:
-    """What columns call species and pairs: S and L where there are two, otherwise their names."""
+    """Names of species and pairs in columns: S and L if there are two species, otherwise their names."""
 
     def __init__(self, species, dimension):
         self.two = len(species) == 2
@@ -693,7 +693,7 @@ class _Names:
         return stem if self.two else f"{stem}_{self.words[a]}+{self.words[b]}"
 
     def numbers(self):
-        """Of contacts, in the order of _code."""
+        """Columns of the numbers of contacts, in the order of _code."""
         count = len(self.words)
         pairs = [self.words[b] + self.words[a] if self.two else
                  self.words[a] if a == b else f"{self.words[a]}+{self.words[b]}"
@@ -702,7 +702,7 @@ class _Names:
 
 
 def _code(a, b):
-    """Number of a pair of species a <= b: SS, LS, LL, ... Behind them come those with the base."""
+    """Number of a pair of species a <= b: SS, LS, LL, ... Pairs with the base follow all others."""
     return b * (b + 1) // 2 + a
 
 
@@ -733,12 +733,12 @@ def _stress_header(power):
 
 
 def _contact_sums(run, layers, frames, power):
-    """By layer the columns of _stress_columns."""
+    """The columns of _stress_columns, by layer."""
     species = len(run.species)
     bins = _code(0, species) + species
     content, number = np.zeros((0, species, 1)), np.zeros((0, bins, 1))
-    # Of the whole branch; up to the contact point from i at the base, and from the larger grain; by the
-    # larger grain's part.
+    # Sums of force (x) a part of the branch: all of it; up to the contact point, from the larger grain or from the
+    # grain at the base; the larger grain's part by size and by power:Q.
     sums = {name: np.zeros((0, bins, run.dimension**2)) for name in ("whole", "cut", "size", "power")}
     for block in run._blocks(frames):
         counts = layers.counts(block)
@@ -757,7 +757,7 @@ def _contact_sums(run, layers, frames, power):
 
 
 def _part_below(dimension, r, height):
-    """Of a disc (area) or sphere (volume), what lies below a level `height` above its centre."""
+    """Area of a disc, or volume of a sphere, below a level `height` above its centre."""
     d = np.clip(height, -r, r)
     if dimension == 3:
         return math.pi / 3 * (r + d) * (r + d) * (2 * r - d)
@@ -765,7 +765,7 @@ def _part_below(dimension, r, height):
 
 
 def _add_contents(run, layers, block, counts, content):
-    """Areas or volumes of the grains, cut at the edges of layers."""
+    """Adds areas or volumes of the grains, cut at the edges of layers."""
     place, grain = block.mobile_grains
     y, r, kind = block.heights.take(place), run.radius.take(grain), run.kind.take(grain)
     last = np.repeat(counts - 1, block.present.sum(axis=1))
@@ -781,7 +781,7 @@ def _add_contents(run, layers, block, counts, content):
 
 
 def _add_contacts(run, layers, block, counts, number, sums, power):
-    """force (x) branch of the contacts that bear a force, where they touch."""
+    """Adds force (x) branch of the contacts that bear a force, in the layer of the contact point."""
     force, branch = block.contacts("force"), block.contacts("branch")
     fields = [*force.T, *branch.T, block.contacts("gap"), block.contacts("i"), block.contacts("j"),
               block.frame_of_contact]
@@ -793,7 +793,7 @@ def _add_contacts(run, layers, block, counts, number, sums, power):
     y = block.heights.take(frame * len(run.radius) + i) - share_i * branch[1]
     layer = np.minimum(layers.at(y), counts.take(frame) - 1)
     kind_i, kind_j = run.kind.take(i), run._partner_kind[np.maximum(j, -1)]
-    # The base has the highest number, and so the code of base contacts follows those of pairs.
+    # The base has the highest number, so that codes of base contacts follow the codes of pairs.
     place = layer * number.shape[1] + _code(np.minimum(kind_i, kind_j), np.maximum(kind_i, kind_j))
     stress = [f * b for f in force for b in branch]
     _book(number, place, [None])
@@ -833,7 +833,7 @@ def _has_one_density(run):
 
 
 def _moving(run, block):
-    """Of the mobile grains of a block: rows, heights, and components of velocity and spin."""
+    """Rows, heights, and components of velocity and spin of the mobile grains of a block."""
     place, grain = block.mobile_grains
     velocity, spin = block.grains("velocity"), block.grains("angular_velocity")
     fields = [field.reshape(block.heights.size, -1).take(place, axis=0).T for field in (velocity, spin)]
@@ -841,7 +841,7 @@ def _moving(run, block):
 
 
 def _kinetic_sums(run, layers, frames, mean):
-    """By layer the columns of _kinetic_columns."""
+    """The columns of _kinetic_columns, by layer."""
     d, species = run.dimension, len(run.species)
     content_of = _content(run)
     mean_at = (_profile if mean == "profile" else _mean_of_layers)(run, layers, frames)
@@ -865,7 +865,7 @@ def _kinetic_sums(run, layers, frames, mean):
 
 
 def _mean_flow(flow, h):
-    """u, v (m/s) and du/dy (1/s), the slope of the least-squares line; NaN where there is none."""
+    """u, v (m/s) and du/dy (1/s), the slope of the least-squares line; NaN where grains do not define it."""
     mass, my, myy, mu, mv, muy = flow.T
     with np.errstate(invalid="ignore", divide="ignore"):
         y, u = my / mass, mu / mass
@@ -875,7 +875,7 @@ def _mean_flow(flow, h):
 
 
 def _mean_motion(run, layers, frames):
-    """By layer, mass-weighted means of height and motion; NaN without grains."""
+    """Mass-weighted means of height and motion, by layer; NaN without grains."""
     sums = np.zeros((0, 1, 2 + (3 if run.dimension == 2 else 6)))
     for block in run._blocks(frames):
         sums = _grow(sums, layers.counts(block).max(initial=1))
@@ -892,8 +892,8 @@ def _mean_of_layers(run, layers, frames):
 
 
 def _profile(run, layers, frames):
-    """Straight lines through the mean heights and motions of bins of at most half a small diameter; outside,
-    the line of the outer two bins (analysis/frames/mean_velocity.hpp)."""
+    """The mean motion as a function of height: straight lines between the means of bins, which are at most half a
+    small diameter high; beyond the outer bins their lines go on (analysis/frames/mean_velocity.hpp)."""
     bins = max(math.ceil(layers.h / (run.small_diameter / 2) - 1e-9), 1)
     means = _mean_motion(run, _Layers(layers.h / bins, run.length, run.width, run.path), frames)
     means = means[~np.isnan(means[:, 0])]
@@ -913,7 +913,7 @@ def _profile(run, layers, frames):
 # ----------------------------------------------------------------------------------------- tables
 
 def _run_header(run, layers, length, stride):
-    """What later steps need to know of a table, as grseg-stress says it."""
+    """The header of a table, as grseg-stress writes it for later steps."""
     numbers = {"small_diameter": run.small_diameter, "large_diameter": run.large_diameter}
     numbers |= {f"gravity_{axis}": value for axis, value in zip("xyz", run.gravity)}
     numbers |= {"step": run.step, "length": run.length}
@@ -933,11 +933,11 @@ def _run_header(run, layers, length, stride):
 
 
 class Table:
-    """Sums by layer and window, one row each, means per frame: from t0 to t1 (s), y0 to y1 (m), `frames` of
-    them, V (m^2 or m^3, voids included), then columns of grseg-stress or grseg-kinetic.
+    """Sums by layer and window, one row each, means per frame. A row has t0, t1 (s), y0, y1 (m), the number of
+    `frames`, V (m^2 or m^3, voids included), then the columns of grseg-stress or grseg-kinetic.
 
-    name       where it came from
-    header     what it was made with, text by key
+    name       file or run that it comes from
+    header     settings, text by key
     history    one line per command that led to it
     columns    names without units; `units` has these by name
     values     [rows, columns]
@@ -948,7 +948,7 @@ class Table:
 
     def __init__(self, name, header, history, columns, values, sources=()):
         self.name, self.header, self.history, self.values = name, header, list(history), values
-        self._sources = list(sources) or [_Source("", None, ())]  # the runs that it is made of
+        self._sources = list(sources) or [_Source("", None, ())]  # runs from which it is made
         self.columns = [column.split("[")[0] for column in columns]
         self.units = {column.split("[")[0]: column.partition("[")[2].rstrip("]") for column in columns}
         self._place = {column: k for k, column in enumerate(self.columns)}
@@ -964,11 +964,11 @@ class Table:
     def __getitem__(self, column):
         if column not in self._place:
             raise Error(f"{self.name}: no column {column!r}; it has {', '.join(self.columns[6:10])} ...; grseg-stress "
-                        "makes tables of contacts, grseg-kinetic those of fluctuations")
+                        "makes tables of contacts, grseg-kinetic tables of fluctuations")
         return self.values[:, self._place[column]]
 
     def tensor(self, stem):
-        """[rows, D, D]; NaN where the table was kept without a component."""
+        """A tensor [rows, D, D]; NaN in components that the table was kept without."""
         def component(a, b):
             name = f"{stem}_{a}{b}"
             return self[name] if name in self or a == b else np.full(len(self), np.nan)
@@ -982,7 +982,7 @@ class Table:
         except (KeyError, ValueError):
             value = math.nan
         if not 0 < value < math.inf:
-            raise Error(f"{self.name}: its header should have a positive number '# {key}: ...'; make the table anew")
+            raise Error(f"{self.name}: its header should have a positive number '# {key}: ...'; make the table again")
         return value
 
     def to_pandas(self):
@@ -1011,8 +1011,8 @@ class Table:
 
 
 def read_table(path):
-    """A Table of grseg-stress, grseg-kinetic or another tool, from its file. The number of its rows is compared
-    with its last line, the checksum there is not."""
+    """Reads a Table of grseg-stress, grseg-kinetic or another tool from its file. The number of rows is compared
+    with the last line of the file, the checksum in that line is not."""
     def fail(why):
         raise Error(f"{path}: {why}")
     try:
@@ -1026,22 +1026,22 @@ def read_table(path):
     except UnicodeDecodeError:
         fail("is not plain text, so it is not a table")
     if lines.pop() != "":
-        fail("the last line is incomplete: the table is truncated; make it anew")
+        fail("the last line is incomplete: the table is truncated; make it again")
     head = list(itertools.takewhile(lambda line: line.startswith("#"), lines))
     rows = lines[len(head) + 1:]
     pairs = [line[2:].partition(": ")[::2] for line in head]
     header = dict(reversed(pairs))
     if rows and rows[-1].startswith("# end: "):
         if rows.pop().split()[2] != str(len(rows)):
-            fail(f"has {len(rows)} rows, but its last line names another number: it is damaged; make it anew")
+            fail(f"has {len(rows)} rows, but its last line names another number: it is damaged; make it again")
     elif "program" in header:
-        fail("does not end with the line '# end: ...' of every table: it is truncated; make it anew")
+        fail("does not end with the line '# end: ...' of every table: it is truncated; make it again")
     columns = lines[len(head)].split("\t") if len(lines) > len(head) else []
     try:
         values = np.array([[float(cell) for cell in row.split("\t")] for row in rows])
         values = values.reshape(len(rows), len(columns))
     except ValueError:
-        fail("has a row that is not as many numbers as there are columns; a table with words, as of grseg-fit, is read by "
+        fail("has a row without a number in each column; to read a table with words, as grseg-fit makes it, use "
              "pandas.read_table(path, comment='#')")
     history = [value for key, value in pairs if key == "history"]
     return Table(str(path), header, history, columns, values, _sources_of(pairs))
@@ -1049,9 +1049,10 @@ def read_table(path):
 
 # ------------------------------------------------------------------------------- tables of one run
 
-_Source = collections.namedtuple("_Source", "input bed history")  # of a run; what the tools made is not history
+_Source = collections.namedtuple("_Source", "input bed history")  # of a run; history ends before the table was made
 _Bed = collections.namedtuple("_Bed", "grains varied come_and_go seed flow")
-# Keys of a scene that make no other flow; other lines of the header or the composition tell the rest of them.
+# Keys of a scene that are not compared between flows: they do not change the flow, or other lines of the header or the
+# composition hold their numbers.
 _NO_OTHER_FLOW = {"seed", "duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "small-diameter",
                   "size-ratio", "density", "friction", "restitution", "gravity", "slope", "step", "length", "phi-large", "large-grains"}
 _OF_NO_EFFECT = {"duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "threads", "isa",
@@ -1059,7 +1060,7 @@ _OF_NO_EFFECT = {"duration", "frame-interval", "burst", "keep-deposition", "comp
 
 
 def _bed_line(run):
-    """The line "bed" of a table (formats/cli/bed.hpp)."""
+    """The line "bed" of a table's header (formats/cli/bed.hpp)."""
     crc = zlib.crc32(run.id.astype("<i4").tobytes(), zlib.crc32(run.radius.astype("<f8").tobytes()))
     text = f"grains {len(run.radius)}, sizes {len(np.unique(run.radius))}, crc32 {crc:08x}"
     if run._come_and_go:
@@ -1075,7 +1076,7 @@ def _bed_line(run):
 
 
 def _acting_options(command):
-    """The options of a restart that act on the motion, with their values, and since when."""
+    """Options of a restart that act on the motion, with their values, and the time from which they act."""
     words = re.findall(r"(?<!\S)(--([^\s=]+)\S*)(?:\s+(?!--)(\S+))?", command)
     acting = "".join(f"{option} {value} " if value else f"{option} " for option, name, value in words if name not in _OF_NO_EFFECT)
     since = command.find(" (from t = ")
@@ -1091,7 +1092,7 @@ def _parse_bed(text):
 
 
 def _sources_of(pairs):
-    """The runs of a table, several where it was merged, of the lines of its header in order."""
+    """The runs of a table, several if it was merged, from the lines of its header in order."""
     sources = [["", None, []]]
     for key, value in pairs:
         if key in ("history", "input") and sources[-1][0]:
@@ -1118,7 +1119,7 @@ def _seed_of(source):
 
 
 def _goes_on(a, b):
-    """True where one history goes on where the other ends, or both from a common beginning by restarts."""
+    """True if one history continues the other, or both continue a common beginning by restarts."""
     common = sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(a, b)))
     ends = [common == len(one) for one in (a, b)]
     restarts = [not end and " --restart" in one[common] for end, one in zip(ends, (a, b))]
@@ -1126,7 +1127,7 @@ def _goes_on(a, b):
 
 
 def _kinship(a, b):
-    """What two runs have in common (analysis/frames/runs_of_tables.hpp)."""
+    """Kinship of two runs, one of the five above (analysis/frames/runs_of_tables.hpp)."""
     if a.input and a.input == b.input:
         return _SAME_MOTION
     seeds = _seed_of(a), _seed_of(b)
@@ -1145,7 +1146,7 @@ def _kinship(a, b):
 
 
 def _overlap(a, b):
-    """When a window of table a begins that overlaps one of b, or None; up to round-off."""
+    """Begin, s, of a window of table a that overlaps one of b by more than round-off; None if there is none."""
     spans = [np.unique(np.column_stack([table["t0"], table["t1"]]), axis=0) for table in (a, b)]
     for begin, end in spans[0]:
         common = np.minimum(end, spans[1][:, 1]) - np.maximum(begin, spans[1][:, 0])
@@ -1155,7 +1156,7 @@ def _overlap(a, b):
 
 
 def _find_runs(tables):
-    """The number of the run of each table, and the tables of which nothing tells that they are of different ones."""
+    """The number of the run of each table, and the tables that may or may not be of one run with another."""
     first, untold = [], []
     for k, table in enumerate(tables):
         first.append(k)
@@ -1180,7 +1181,7 @@ def _find_runs(tables):
 # --------------------------------------------------------------------------- partition and estimates
 
 def _parse_rule(rule):
-    """("power", 2.0) of "power:2"; the number is None for the rules that have none."""
+    """Word and number of a rule, ("power", 2.0) for "power:2"; the number is None for rules that have none."""
     word, colon, text = rule.partition(":")
     try:
         if word in ("uniform", "power") and colon:
@@ -1195,13 +1196,13 @@ def _parse_rule(rule):
 
 
 def _parts_of(table, names, rule, number, a, b):
-    """What the rule gives of the mixed contacts of species a < b to the larger and to the smaller grain, N m; nothing
-    where it gives them to nobody."""
+    """The larger and the smaller grains' parts of the mixed contacts of species a < b by the rule, N m; both are 0
+    for drop."""
     of = lambda stem: table.tensor(names.pair(stem, a, b))
     if rule == "drop":
         return 0, 0
     if rule in ("half", "uniform"):
-        at_centres = names.pair("ML", 0, 1) + "_xx" in table  # made with --assign grain: either part at its own grain
+        at_centres = names.pair("ML", 0, 1) + "_xx" in table  # --assign grain: each part counts at its own grain
         return number * of("ML" if at_centres else "M"), (1 - number) * of("MS" if at_centres else "M")
     if rule == "power" and float(table.header.get("power", "nan")) != number:
         raise Error(f"{table.name}: its column Mpower_* was not made with power:{number:g}; make the table with "
@@ -1212,8 +1213,8 @@ def _parts_of(table, names, rule, number, a, b):
 
 def partial_stress(table, rule="size", base=None):
     """The stress of each species by a rule, (of_species [rows, K, D, D], total [rows, D, D]), N/m or Pa:
-    sigma^nu = (A + its parts of mixed contacts + its part at the base)/V. The species add up to the total for every
-    rule but drop.
+    sigma^nu = (A + its parts of mixed contacts + its part at the base)/V. The species add up to the total, except
+    by drop.
 
     rule    the larger grain's part of a mixed contact: "size", "contact-point", "half", "drop", "uniform:P" or
             "power:Q", for which the table must have been made
@@ -1244,51 +1245,51 @@ def partial_stress(table, rule="size", base=None):
 
 @dataclasses.dataclass
 class Fit:
-    """What a rule makes of two species: the segregation strength B of psi_L = phi_L (1 + B phi_S), a mean over layers and
-    frames with the weight phi_L phi_S. Names and definitions are those of grseg-fit; NaN where one is not defined.
+    """Estimates for two species by a rule. The segregation strength B of psi_L = phi_L (1 + B phi_S) is a mean over
+    layers and frames with the weight phi_L phi_S. Names and definitions agree with grseg-fit; NaN is undefined.
 
-    An interval is (low, high), 95 %, as grseg-fit has it over the windows of one run or the runs of one flow; it is NaN
-    for several flows. grseg-fit also has those over flows and those of the paper's fit, and says where an interval is in
+    An interval is (low, high), 95 %, as in grseg-fit over the windows of one run or the runs of one flow; it is NaN
+    for several flows. grseg-fit also has intervals over flows and for the paper's fit, and says if an interval is in
     doubt, for instance because few windows are independent.
     """
 
     rule: str
-    points: int      # layers and windows
+    points: int      # number of layers and windows
     B: float         # sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
-    share: float     # of all mixed contacts that gives the same B
-    p_zero: float    # the share at which B is 0, whatever the rule
-    dB_dp: float     # of B over the share, there
-    paper_s: float   # what the paper fits: sigma^S/sigma^L = s phi_S/phi_L, as a mean of logarithms
+    share: float     # p for which uniform:p gives this B
+    p_zero: float    # p for which uniform:p gives B = 0, whatever the rule
+    dB_dp: float     # slope of B over p, there
+    paper_s: float   # the paper's fit sigma^S/sigma^L = s phi_S/phi_L, as a mean of logarithms
     paper_B: float   # half the sum of 1 - s and (1 - s)/s
     paper_k: float   # sigma^S/sigma^L = k (phi_S/phi_L)^a, weighted least squares of the logarithms
     paper_a: float
     B_interval: tuple
     p_zero_interval: tuple
     dB_dp_interval: tuple
-    over: str        # what the intervals are over: "windows" or "runs"; "" of several flows
+    over: str        # population of the intervals: "windows" or "runs"; "" for several flows
     degrees_of_freedom: float
 
 
 class Points:
-    """The layers and windows that take part in a fit, and what rules make of them: what grseg-fit selects of the
-    same tables with the same options.
+    """The layers and windows that take part in a fit, as grseg-fit selects them with the same options, and their
+    stresses and estimates by rule.
 
     tables         a Table or several
-    quantity       "contact", of tables of sums of contacts, or "kinetic"
-    component      "yy" or "pressure", a D-th of the trace
+    quantity       "contact" for tables of sums of contacts, or "kinetic"
+    component      "yy", or "pressure", which is the trace over D
     base           part of contacts with the base; default: as in the first table
-    pair           names of the two species, where the tables have more
-    ratio_range    of phi_S/phi_L
-    heights        of the layers: "inside" (without 4 d_S at the base and under the surface), "all", "4dS:56dS" or "4dS:"
+    pair           names of the two species, if the tables have more
+    ratio_range    range of phi_S/phi_L
+    heights        range of the layers: "inside" (without 4 d_S at the base and under the surface), "all", "4dS:56dS" or "4dS:"
     min_solid      least solid fraction of a layer, in units of the run's median
-    begin, end     s, between which windows lie
+    begin, end     range of the windows, s
 
-    Of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), frames,
-    size_ratio, table and row (which table, and which row of it), run (a number).
+    Fields of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), frames,
+    size_ratio, table (a number), row (in that table), run (a number).
 
-    Tables of one bed, such as a run and what continues it, are one run; two that hold the same time of it raise
-    Error. `untold` names tables of which nothing tells that they are of different runs. `over` is what intervals are
-    over: "windows" of one run, "runs" of one flow, "" of several flows.
+    Tables of one bed, such as a run and its continuation, are one run; if two hold the same time of it, Error is
+    raised. `untold` names tables that may or may not be of one run with another. `over` is the population of the
+    intervals: "windows" of one run, "runs" of one flow, "" for several flows.
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
@@ -1321,7 +1322,7 @@ class Points:
         return len(self.run)
 
     def stresses(self, rule="size"):
-        """Of the smaller species, the larger one and, of two species, all contacts [n]: N/m, of spheres Pa; the kinetic one is K/V."""
+        """Stresses of the smaller species, the larger one, and both [n], N/m or Pa; kinetic stress is K/V."""
         small, large, total = (np.empty(len(self)) for _ in range(3))
         for number, table in enumerate(self.tables):
             own, rows = self.table == number, self.row[self.table == number]
@@ -1329,11 +1330,11 @@ class Points:
             small[own], large[own] = (of_species[rows, species] for species in self.pair)
             total[own] = of_all[rows] if len(table.species) == 2 else small[own] + large[own]
         if not np.isfinite(small + large + total).all():
-            raise Error(f"{self.tables[0].name}: a stress by {rule} is not finite; make the table anew")
+            raise Error(f"{self.tables[0].name}: a stress by {rule} is not finite; make the table again")
         return small, large, total
 
     def fit(self, rule="size"):
-        """The Fit of a rule; kinetic stress knows none."""
+        """The Fit of a rule; kinetic stress does not depend on it."""
         small, large, total = self.stresses(rule)
         adds_up = self.quantity == "kinetic" or rule != "drop"
         excess = self._excess(large, total)
@@ -1359,12 +1360,12 @@ class Points:
                    dB_dp_interval=of_slope[0], over=self.over, degrees_of_freedom=of_b[1])
 
     def _b_at(self, share):
-        """B where the larger grain of every mixed contact gets this share."""
+        """B if the larger grain of every mixed contact gets this share."""
         _, large, total = self.stresses(f"uniform:{float(share)!r}")
         return self._strength(large, total)
 
     def b_of_p(self, shares):
-        """B [n] where the larger grain of every mixed contact gets these shares [n]."""
+        """B [n] if the larger grain of every mixed contact gets these shares [n]."""
         return np.array([self._b_at(share) for share in np.asarray(shares, float).tolist()])
 
     def _find_pair(self, pair):
@@ -1408,7 +1409,7 @@ class Points:
                 "frames": frames, "size_ratio": np.full(len(frames), d_large / d_small)}
 
     def _in_range(self, table, solid, median):
-        """Whether rows lie in the times and heights that take part."""
+        """True for rows in the times and heights that take part."""
         t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
         slack = 1e-9 * (1 + abs(t0) + abs(t1))
         good = (t0 >= self._times[0] - slack) & (t1 <= self._times[1] + slack)
@@ -1417,7 +1418,7 @@ class Points:
         return good & (y0 >= low - slack) & (y1 <= high + slack)
 
     def _height_range(self, table, solid, median):
-        """m, as parse_heights() of analysis/frames/layer_key.hpp has it."""
+        """The range of heights, m, as parse_heights() of analysis/frames/layer_key.hpp gives it."""
         sizes = table.number("small_diameter"), table.number("large_diameter")
         if self._heights == "all":
             return -math.inf, math.inf
@@ -1438,7 +1439,7 @@ class Points:
         return base + 4 * sizes[0], base + (filled * (tops - bottoms)).sum() - 4 * sizes[0]
 
     def _stresses_of(self, table, rule):
-        """The component of each species [rows, K] and of all [rows]."""
+        """The component of the stress of each species [rows, K] and of all [rows]."""
         if self.quantity == "kinetic":
             words = _Names(table.species, table.dimension).words
             of_species = np.stack([table.tensor(f"K_{word}") for word in words], axis=1) / table["V"][:, None, None, None]
@@ -1461,8 +1462,8 @@ class Points:
             return np.where(total > 0, large / total - self.phi_large, math.nan)
 
     def _zero(self):
-        """p* by Newton's method, one step where B over the share is straight; there psi_L - phi_L of each point and
-        its derivative by the share."""
+        """p* by Newton's method, which takes one step if B is linear in the share; and, at p*, psi_L - phi_L of each
+        point with its derivative by the share."""
         none, everything = self.stresses("uniform:0"), self.stresses("uniform:1")
         change = [all_to - none_to for none_to, all_to in zip(none, everything)]
         share = 0.5
@@ -1480,7 +1481,7 @@ class Points:
         return float(share), excess, by_share
 
     def _is_one_flow(self, tables):
-        """True where tables agree in composition and in what they record of the flow (analysis/fit/flows.cpp)."""
+        """True if tables agree in composition and in all facts of the flow that they record (analysis/fit/flows.cpp)."""
         def near(a, b, part):
             try:
                 return a == b or abs(float(a) - float(b)) <= part * max(abs(float(a)), abs(float(b)))
@@ -1518,15 +1519,15 @@ class Points:
         return np.array([number[span] for span in spans])
 
     def _noise(self, excess):
-        """By window, what composition does not explain in the sum of frames * excess, and the weight of B."""
+        """The part of the sum of frames * excess that composition does not explain, and the weight of B, by window."""
         ok = np.isfinite(excess)
         weight, window, count = self._b_weight[ok], self._observation[ok], self._observation.max() + 1
         noise = weight * _composition_noise(self.phi_large[ok], self.frames[ok] * excess[ok] / weight, weight)
         return np.bincount(window, noise, count), np.bincount(window, weight, count)
 
     def _interval(self, value, excess, per, like):
-        """The interval of a number that moves by frames * excess / per of every point, and its degrees of freedom.
-        Windows depend on each other as they do in B with the excess `like`."""
+        """The interval of a number to which each point adds frames * excess / per, and its degrees of freedom. The
+        dependence between windows is taken from B with the excess `like`."""
         error, degrees, ok = math.nan, math.nan, np.isfinite(excess)
         if self.over == "windows" and ok.any():
             error, degrees = _error_over_windows(self._noise(excess)[0] / per, *self._noise(like))
@@ -1540,8 +1541,8 @@ class Points:
 # -------------------------------------------------------------------------------------- intervals
 
 def _is_again(tables, last, window):
-    """True where a window (t0, t1, table) overlaps an earlier one, or nothing moved since: areas or volumes and stresses
-    are equal to a millionth (analysis/frames/runs_of_tables.cpp)."""
+    """True if a window (t0, t1, table) overlaps an earlier one, or if nothing moved since: areas or volumes and
+    stresses are equal to a millionth (analysis/frames/runs_of_tables.cpp)."""
     if min(last[1], window[1]) - max(last[0], window[0]) > 1e-6 * min(last[1] - last[0], window[1] - window[0]):
         return True
     a, b = (tables[k] for _, _, k in (last, window))
@@ -1567,7 +1568,7 @@ def _composition_noise(phi, value, weight):
 
 
 def _autocorrelation_time(series):
-    """In windows, at least 1 (analysis/statistics/confidence.hpp)."""
+    """Autocorrelation time in windows, at least 1 (analysis/statistics/dependence.hpp)."""
     n, rest = len(series), series - series.mean()
     square = rest @ rest
     if not square > 0:
@@ -1586,7 +1587,7 @@ def _autocorrelation_time(series):
 
 def _error_over_windows(parts, like, weight):
     """The standard error of a sum over the windows of one run, and its degrees of freedom, from a thousand samples of
-    blocks of windows; how long blocks are follows from `like` (analysis/statistics/bootstrap.hpp)."""
+    blocks of windows; the length of blocks follows from `like` (analysis/statistics/bootstrap.hpp)."""
     n, time = len(parts), _autocorrelation_time(like)
     rho = (time - 1) / (time + 1)
     best = (math.sqrt(6) * rho / (1 - rho**2))**(2 / 3) * n**(1 / 3)
@@ -1605,7 +1606,7 @@ def _error_over_windows(parts, like, weight):
 
 
 def _draw(count, below):
-    """Whole numbers from 0 to below - 1, those that GSL's mt19937 gives with seed 1."""
+    """Whole numbers from 0 to below - 1, the same as GSL's mt19937 gives with seed 1."""
     scale, random, drawn = 0xffffffff // below, np.random.RandomState(1), np.empty(0, int)
     while len(drawn) < count:
         more = random.randint(0, 1 << 32, count, np.uint32).astype(int) // scale
@@ -1614,7 +1615,7 @@ def _draw(count, below):
 
 
 def _error_over_runs(parts, weight):
-    """The standard error of a sum over runs, each one observation, and its degrees of freedom
+    """The standard error of a sum over independent runs, and its degrees of freedom
     (analysis/statistics/confidence.hpp)."""
     runs = weight.sum()**2 / (weight**2).sum()
     rest = parts - parts.sum() / weight.sum() * weight
@@ -1623,8 +1624,8 @@ def _error_over_runs(parts, weight):
 
 @functools.lru_cache
 def _student(degrees):
-    """The 97.5 % quantile of Student's t, sqrt(degrees) tan(angle): from 0 to the angle lies 0.475 of a density that goes
-    as cos^(degrees - 1)."""
+    """The 97.5 % quantile of Student's t: sqrt(degrees) tan(angle), where 0.475 of the density, which is proportional to
+    cos^(degrees - 1), lies between 0 and the angle."""
     nodes, weights = np.polynomial.legendre.leggauss(200)
     factor = math.exp(math.lgamma((degrees + 1) / 2) - math.lgamma(degrees / 2)) / math.sqrt(math.pi)
     low, high = 0.0, math.pi / 2
@@ -1636,7 +1637,7 @@ def _student(degrees):
 
 
 def _fits_of_the_paper(x, small, large, weight):
-    """What estimators_of() of analysis/fit/estimators.cpp takes from points with both stresses positive."""
+    """The paper's estimates from points with both stresses positive: estimators_of() of analysis/fit/estimators.cpp."""
     ok = (small > 0) & (large > 0)
     log_slope = prefactor = exponent = math.nan
     if ok.any():

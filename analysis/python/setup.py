@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The version is that of CMakeLists.txt, which pyproject.toml cannot read; an archive made by pip's tools has it in PKG-INFO."""
+"""Takes the version from CMakeLists.txt, which pyproject.toml cannot read, or from PKG-INFO in an archive made by pip's tools."""
 import pathlib
 import re
 

@@ -76,7 +76,7 @@ def files_that_are_not_runs():
         file["particles/all/position"] = np.zeros(3)
     require(r"^foreign.h5: /h5md/modules/grseg has no version: not a run of grseg, or damaged; grseg-import makes",
             lambda: grseg.Run("foreign.h5"))
-    require(r"^changed.h5: /h5md/modules/grseg has version 2.0, and this grseg.py reads 1.0; take that of the grseg",
+    require(r"^changed.h5: /h5md/modules/grseg has version 2.0, and this grseg.py reads 1.0; take the grseg.py of the grseg",
             changed(with_version("h5md/modules/grseg", np.array([2, 0]))))
 
 
@@ -118,7 +118,7 @@ def damaged_runs():
 
 
 def damaged_frames():
-    place = "in contact 1 of frame 2, which is not a row of a grain that can stand there; the frame is damaged"
+    place = "in contact 1 of frame 2, which is not the row of a grain that can have a contact; the frame is damaged"
     for name, value in (("i", 3), ("i", 2), ("i", -1), ("j", 3)):
         require(rf"^changed.h5: /grseg/contacts/{name} is {value} {place}",
                 changed(put(f"grseg/contacts/{name}", 5, value)))
@@ -143,7 +143,7 @@ def grains_that_come_and_go():
         frame = run[0]
         assert run.version == "1.0" and 0 < frame.present.sum() < run.mobile.sum()
         absent = int(np.flatnonzero(np.isnan(frame.position[:, 1]))[0])
-    require(rf"/grseg/contacts/j is {absent} in contact 2 of frame 0, which is not a row of a grain that can stand there",
+    require(rf"/grseg/contacts/j is {absent} in contact 2 of frame 0, which is not the row of a grain that can have a contact",
             changed(put("grseg/contacts/j", 2, absent), "absent.h5"))
     require(rf"/particles/grains/position/value is not a finite number in grain {absent} of frame 0",
             changed(put("particles/grains/position/value", (0, absent, 0), 0.0), "absent.h5"))
@@ -187,7 +187,7 @@ def wrong_tables():
     require("table.tsv: does not end with the line '# end: ...' of every table: it is truncated", read(head + "0\t1\n"))
     require("table.tsv: has 1 rows, but its last line names another number: it is damaged",
             read(head + "0\t1\n# end: 2 rows, xxh3 0\n"))
-    require("table.tsv: has a row that is not as many numbers as there are columns",
+    require("table.tsv: has a row without a number in each column",
             read(head + "0\n# end: 1 rows, xxh3 0\n"))
     require("three-grains-closed.h5: is an HDF5 file, not a table; open a run with grseg.Run", lambda: grseg.read_table(RUN))
     require("nowhere.tsv: No such file or directory", lambda: grseg.read_table("nowhere.tsv"))
