@@ -19,7 +19,7 @@ keep_or_remove() {
 }
 
 # make_root ROOT SUITE OPTION...: options of mmdebstrap. Where this machine runs SUITE too, packages come from
-# the same mirrors; proxy and name servers are those of this machine anyway.
+# the same mirrors; proxy and name servers are always this machine's.
 make_root() {
   local root=$1 suite=$2 mirrors=() file
   shift 2

@@ -1,8 +1,8 @@
-"""What scripts share: tables of grseg as text, the tools that print them, intervals, and Markdown.
+"""Functions for all scripts: tables of grseg as text, the tools that print them, intervals, and Markdown.
 
 Every table of grseg ends with a line '# end: 3 rows, xxh3 0123456789abcdef', the number of rows and the xxh3 (64 bit) of
-all bytes before it. What is read here is checked by it; those who change a table write it anew. Tables of numbers alone
-are also read by analysis/python/grseg.py, which knows their columns.
+all bytes before it. Tables read here are checked by it; a changed table gets another such line. Tables of numbers alone
+are also read by analysis/python/grseg.py, as arrays.
 """
 import ctypes
 import ctypes.util
@@ -45,19 +45,19 @@ def sealed(text):
 
 
 def unsealed(text, name="table"):
-    """The table without the line that ends it. Exits where that does not agree with the others, or is missing."""
+    """The table without the line that ends it. Exits where this line is missing or does not agree with the others."""
     at = text.rfind("\n") + 1 if not text.endswith("\n") else text.rfind("\n", 0, -1) + 1
     if not text.startswith(MARK, at):
         if WITH_END.search(text):
-            sys.exit(f"{name}: does not end with the line '{MARK}...'; it is truncated or damaged, make it anew")
+            sys.exit(f"{name}: does not end with the line '{MARK}...'; it is truncated or damaged, make it again")
         return text
     if text[at:] != end_line(text[:at]):
-        sys.exit(f"{name}: does not agree with its last line, '{text[at:].strip()}'; it is damaged, make it anew")
+        sys.exit(f"{name}: does not agree with its last line, '{text[at:].strip()}'; it is damaged, make it again")
     return text[:at]
 
 
 def changed(text, pattern, to):
-    """The table with other text in place of the pattern, and with a line that ends it as it is then."""
+    """The table with other text in place of the pattern, and with a new line that ends it."""
     body = unsealed(text)
     new = re.sub(pattern, to, body)
     return text if new == body else sealed(new)
@@ -110,7 +110,7 @@ def save(path, text):
 
 
 def cell(value):
-    """Of a table: words as they are, numbers with eight digits."""
+    """Text of a cell: words as they are, numbers with eight digits."""
     return value if isinstance(value, str) else f"{value:.8g}"
 
 
@@ -122,7 +122,7 @@ def write(path, comment, names, rows):
 # ------------------------------------------------------------------------------------------- tools
 
 def tool(folder, name, *words):
-    """What one of grseg's programs prints; RuntimeError with its sentence where it fails."""
+    """Output of one of grseg's programs; RuntimeError with its sentence if it fails."""
     done = subprocess.run([os.path.join(folder, name), *map(str, words)], capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
@@ -136,9 +136,9 @@ class Numbers(dict):
 
 def by_rule(rows):
     """The numbers of grseg-fit, whose table has a row for each, as one dictionary per rule, flow and pair: rule, flow,
-    pair, and for every quantity NAME, NAME_low, NAME_high; B is over what was asked for, B_OVER (B_windows,
-    B_equal_flows ...) over each population that is known. Numbers of no rule (p_zero, dB_dp, Phi_L ...) belong to all.
-    degrees_of_freedom are those of B; nan where a number is missing."""
+    pair, and for every quantity NAME, NAME_low, NAME_high. B has the interval that was asked for, B_OVER (B_windows,
+    B_equal_flows ...) the interval over each known population. Numbers without a rule (p_zero, dB_dp, Phi_L ...) belong
+    to all rules. degrees_of_freedom belong to B; nan is a missing number."""
     found, common = {}, {}
     for row in rows:
         flow = row["flow"], row["pair"]

@@ -1,7 +1,7 @@
-# What users pass to make, kept from running anything: included by Makefile, reproduce/Makefile and
-# reproduce/document.mk.
+# Checks of the values that users pass to make, so that they cannot run anything: included by Makefile,
+# reproduce/Makefile and reproduce/document.mk.
 
-# Where make was called, unless another make says it, and where programs are.
+# Folder where make was called, unless another make sets it, and folder of the programs.
 HERE ?= $(or $(value PWD),$(CURDIR))
 BIN ?= $(dir $(abspath $(lastword $(MAKEFILE_LIST))))../build/bin
 
@@ -29,7 +29,7 @@ in_no_value := $$
 # To make these are more than letters of a name, and to the shell, of which names are not kept here.
 in_no_name := $$ \# % : ; = & | \ * ? [ ] ( ) { } < > ~ ! ' " `
 
-# given VARIABLE: its value as given, which nothing has expanded; a default is that of the Makefile.
+# given VARIABLE: its value as given, not expanded; if it was not given, the Makefile's default.
 given = $(if $(filter file,$(origin $(1))),$($(1)),$(value $(1)))
 # first_of CHARACTERS,VARIABLE: the first of them that the variable holds.
 first_of = $(firstword $(foreach character,$(1),$(findstring $(character),$(call given,$(2)))))

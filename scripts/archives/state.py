@@ -6,8 +6,8 @@
 
 Units of the output: small nominal diameter = gravity = density (mass per area) = 1. A frame holds
 positions at mid-step and velocities after the step; positions are advanced by the other half step and
-wrapped into [0, length). Boundary grains are at rest. The density 1 is that of discs: LIGGGHTS reads it so in two
-dimensions, LAMMPS after `set group all density/disc 1`.
+wrapped into [0, length). Boundary grains are at rest. The density 1 is mass per area of discs: LIGGGHTS reads it so in
+two dimensions, LAMMPS after `set group all density/disc 1`.
 
 Types: 1 boundary, 2 large, 3 small. Ids count from 1 in the order of the run.
 """

@@ -12,9 +12,9 @@ material's id as type, which grains are held, the whole force on each grain, and
 from j and the branch; above the names gravity, time step and the periods of the cell.
 
 The tables are written just before NewtonIntegrator moves the grains away from where their contacts were found;
-the velocities are those of half a step before. What would not be imported as it is meant stops the run with a
-sentence: clumps, a sheared or growing cell, forces that no contact explains (check_forces=False writes them all
-the same, as part of the force on the grain).
+velocities lie half a step before. The run stops with a sentence where an import would go wrong: clumps, a sheared
+or growing cell, forces that no contact explains (check_forces=False writes them all the same, as part of the force
+on the grain).
 """
 import atexit
 import gzip

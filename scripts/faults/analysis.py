@@ -6,7 +6,7 @@ import re
 
 from copy_of_sources import run_quietly
 
-# What is broken, where, what stands there, what takes its place.
+# Faults: (description, file, code that stands there, code that takes its place).
 FAULTS = [
     # Shares of mixed contacts, and contacts that ignore grain size.
     ("share: by size, the small grain's part goes to the large one", "analysis/stress/partition_rule.cpp",
@@ -36,7 +36,7 @@ FAULTS = [
     ("neutral contacts: B with the species exchanged", "analysis/stress/partition_rule.cpp",
      "return excess * (1 + size_ratio) / (phi_large + size_ratio * (1 - phi_large));",
      "return excess * (1 + size_ratio) / (1 - phi_large + size_ratio * phi_large);"),
-    # Where contacts are booked, and what the base adds.
+    # Layers of contacts, and the part of the base.
     ("booking: in the layer of grain i instead of the contact point's", "analysis/stress/partial_contact_stress.cpp",
      "std::min(layers_.holding<D>(touch, y_contact), count_ - 1)};",
      "std::min(layers_.holding<D>(position, end_i.y), count_ - 1)};"),
@@ -485,11 +485,12 @@ FAULTS = [
      "in BASES or base is None else base", "in BASES and base is None else base or row"),
 ]
 
-# What no test can see, with the reason in the document.
+# Faults that no test can see; the document has the reason.
 ARGUED = {"component: the trace instead of its part per dimension"}
 LIBRARY = "grseg_analysis"
 FOLDER = "analysis"  # of the library
-# Whose tests are asked for a fault in a room: its own, then those of rooms that build on it.
+OUTPUT = "docs/studies/fault-injection.md"
+# Rooms whose tests are run for a fault in a room: its own, then the rooms that build on it.
 ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],
          "statistics": ["statistics", "segregation", "fit"], "stress": ["stress", "micro", "fit", "check"],
          "micro": ["micro"], "balance": ["balance"], "segregation": ["segregation"], "fit": ["fit"]}

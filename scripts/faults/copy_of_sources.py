@@ -129,7 +129,7 @@ def broken(copy, part, path, text):
 
 
 def inject(copy, part, fault):
-    """What the tests say of the copy with the fault."""
+    """Results of the tests on the copy with the fault."""
     what, path, old, new = fault
     kept = f"{copy.work}/{re.sub('[^a-z]+', '-', what.lower())}.json"
     result = kept_result(kept, fault)

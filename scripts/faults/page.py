@@ -54,7 +54,7 @@ FAULTS = [
      "B: fitOf(fit, own).B}", "B: fitOf(fit, state.rule).B}"),
     ("command: the rule that it names is not the one shown", PAGE + "share.js",
      "--partition ${ruleName(rule)}${pair}", "--partition size${pair}"),
-    # What the page says of itself.
+    # Texts, colours and address of the page.
     ("colours: canvases keep theirs when the system turns dark", PAGE + "main.js",
      'addEventListener("change", recolour)', 'addEventListener("change", forgetColours)'),
     ("colours: of a tab that is not shown they stay", PAGE + "main.js",
@@ -66,7 +66,7 @@ FAULTS = [
     ("numbers: two that differ read alike", PAGE + "format.js", "?? written[0]", "&& written[0]"),
     ("address: the time is not in it", PAGE + "address.js", "if (Number.isFinite(time)) page.transport", "if (!time) page.transport"),
     ("address: each choice is a step to go back by", PAGE + "address.js", "window.history.replaceState", "window.history.pushState"),
-    # What the page is given.
+    # Data of the page.
     ("codes: rounded down", "analysis/explore/player_data.hpp", "std::round((value - from()) / step())",
      "std::floor((value - from()) / step())"),
     ("codes: a step too few", "analysis/explore/player_data.hpp", "return (to() - from()) / last;", "return (to() - from()) / none;"),

@@ -2,7 +2,7 @@
 import concurrent.futures
 import os
 
-# What is broken, where, what stands there, what takes its place.
+# Faults: (description, file, code that stands there, code that takes its place).
 FAULTS = [
     ("sign: the partner is pushed the same way", "sim/contact/contact_law-inl.hpp",
      "b.vy = b.vy - weight_b * p.py;", "b.vy = b.vy + weight_b * p.py;"),

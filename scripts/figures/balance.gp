@@ -1,4 +1,4 @@
-# Which mechanism pushes large grains in which direction, over height, from FOLDER/balance-profile.tsv:
+# Forces on the large grains by mechanism, over height, from FOLDER/balance-profile.tsv:
 #   scripts/profile --balance FOLDER/balance.tsv > FOLDER/balance-profile.tsv
 #   gnuplot -c scripts/figures/balance.gp FOLDER [PICTURE]
 # Left: forces on the large grains in units of their weight. Right: the B and -B_kappa behind them, with the

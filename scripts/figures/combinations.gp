@@ -1,4 +1,4 @@
-# Which choices meet which number of the paper: FOLDER/combined.tsv, of scripts/reproduce/campaign combinations --figure.
+# The paper's numbers met by each choice, from FOLDER/combined.tsv (scripts/reproduce/campaign combinations --figure).
 #   gnuplot -c scripts/figures/combinations.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "combinations.gp") - 1]."names.gp"
 eval figure("combinations", 1100, 760, 12)

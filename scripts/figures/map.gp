@@ -52,7 +52,7 @@ set title sprintf("%g to %g s", T_min_x, T_max_y)
 set palette defined (0 "#440154", 1 "#414487", 2 "#2a788e", 3 "#22a884", 4 "#7ad151", 5 "#fde725")
 if (ARGC > 5) { set cbrange [real(ARG5):real(ARG6)] }
 set key off
-# Of cells without grains nu is 0, or u is nan.
+# In cells without grains nu is 0, or u is nan.
 of_grains = column_of("nu") > 0 ? column_of("nu") : column_of("u")
 shown(value, grains) = value == 0 && !(grains != 0 && grains == grains) ? NaN : value
 plot table using (($3 + $4) / 2):(($5 + $6) / 2):(shown(column(found), column(of_grains))) every ::from::to with image

@@ -1,4 +1,4 @@
-# What a figure does with names of files: gnuplot runs a name that begins with < or | as a command.
+# Names of files for figures: gnuplot would run a name that begins with < or | as a command.
 #   load ARG0[:strstrt(ARG0, "FIGURE.gp") - 1]."names.gp"
 
 # named(PATH): the same file, by a name that begins with / or a point.

@@ -1,4 +1,4 @@
-# How a bed segregates, from FOLDER/segregation.tsv (grseg-segregation) and FOLDER/segregation-summary.tsv
+# Segregation of a bed, from FOLDER/segregation.tsv (grseg-segregation) and FOLDER/segregation-summary.tsv
 # (the same with --summary, and the same --begin): heights of the large grains and mixing index over
 # time with the exponential fit, diffusivities over height, flux of large grains over composition.
 #   gnuplot -c scripts/figures/segregation.gp FOLDER [PICTURE]
@@ -11,7 +11,7 @@ begin = real(system("awk -F '\\t' '!/^#/ && ++n == 2 {print $1; exit}' ".quoted(
 d = header("small_diameter")
 start = number("y_L_start[m]"); end = number("y_L_end[m]"); tau = number("tau[s]")
 set datafile missing NaN
-# Rows of the whole bed have y0 = nan; they are read apart from those of layers.
+# Rows of the whole bed have y0 = nan; they are read apart from rows of layers.
 rows(test) = "< awk -F '\\t' '!/^#/ && (!n++ || $3 ".test." \"nan\")' ".quoted(table)
 set multiplot layout 1,3
 middle(dummy) = (column("t0[s]") + column("t1[s]")) / 2

@@ -1,4 +1,4 @@
-# What `cmake --install` puts where, and the Debian package that `cpack` makes of it (docs/guide/install.md).
+# Files of `cmake --install`, and the Debian package that `cpack` makes of them (docs/guide/install.md).
 # Manual pages and completions are made by the programs themselves, from their tables of options.
 include(GNUInstallDirs)
 set(GRSEG_PROGRAMS grseg-sim ${GRSEG_FORMAT_TOOLS} ${GRSEG_TOOLS})
@@ -38,7 +38,7 @@ foreach(program ${GRSEG_PROGRAMS})
 endforeach()
 add_custom_target(grseg_printed ALL DEPENDS ${GRSEG_PRINTED})
 
-# By name: the folders may hold those of programs that there were before. Also by `--component manuals`.
+# Listed by name: the folders may still hold files of former programs. Also for `--component manuals`.
 list(TRANSFORM GRSEG_PROGRAMS PREPEND ${PROJECT_BINARY_DIR}/completions/bash/ OUTPUT_VARIABLE for_bash)
 list(TRANSFORM GRSEG_PROGRAMS PREPEND ${PROJECT_BINARY_DIR}/completions/zsh/_ OUTPUT_VARIABLE for_zsh)
 list(TRANSFORM GRSEG_PROGRAMS REPLACE "(.+)" "${PROJECT_BINARY_DIR}/man/\\1.1" OUTPUT_VARIABLE manual_pages)

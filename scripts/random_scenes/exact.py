@@ -31,7 +31,7 @@ def numbers(run):
 
 
 def kinematics(run):
-    """A mobile grain moves with its velocity from the middle of a step to that of the next; nothing else
+    """A mobile grain moves with its velocity from the middle of one step to the middle of the next; nothing else
     displaces it."""
     duration = (run.part[:-1] + run.part[1:]) / 2
     moved = np.diff(run.position, axis=0) - duration[:, None, None] * run.velocity[:-1]
@@ -115,7 +115,7 @@ def works(run):
 
 
 def energy_balance(run):
-    """Energies and works that the file gives are those of its motion, and energy changes by work alone."""
+    """Energies and works in the file agree with the motion, and energy changes by work alone."""
     seen = run.observables
     translation, rotation = run.kinetic
     kinetic = translation + rotation
@@ -131,7 +131,7 @@ def energy_balance(run):
     falling = run.part[:, None] * np.einsum("g,fga->fa", run.mass * run.mobile, run.velocity + run.before) / 2
     by_gravity = (run.gravity * falling).sum(axis=1)
     missing = np.diff(kinetic) - (total + boundary + by_gravity)[1:]
-    # What falls and what rises may balance: the largest term is that of all momenta.
+    # The work of gravity may be small because some grains fall while others rise: its scale is the sum over all momenta.
     speeds = np.linalg.norm(run.velocity + run.before, axis=2)[:, run.mobile] @ run.mass[run.mobile]
     unit = unit[1:] + kinetic[:-1] + (speeds * run.part * np.linalg.norm(run.gravity, axis=1))[1:]
     yield worst("energy changes by work", np.where(run.follows[1:], np.abs(missing) / unit, 0), run.round_off, run)

@@ -8,7 +8,7 @@ import numpy as np
 
 from random_scenes.exact import Finding, moving, worst
 
-# Of the smaller diameter: what grseg-check accepts as the largest overlap (docs/studies/check.md).
+# Largest overlap that grseg-check accepts, over the smaller diameter (docs/studies/check.md).
 MOST_OVERLAP = 0.1
 # Lifts all grains by 0.05 d_S. G14 of the hard cases allows 0.02, of a scene that was known (tests/hard_cases/rest_test.cpp).
 MOST_CREATED = 0.05
@@ -43,7 +43,7 @@ def overlaps(run):
 
 
 def deepest_pair(run, position):
-    """The largest overlap over the smaller diameter, of all pairs but those of boundary grains."""
+    """The largest overlap over the smaller diameter, of all pairs but pairs of boundary grains."""
     dx = position[:, None, 0] - position[None, run.mobile, 0]
     dy = position[:, None, 1] - position[None, run.mobile, 1]
     if run.periodic:
@@ -77,7 +77,7 @@ def deepest_in_walls(run):
 
 
 def outside(run):
-    """No centre lies below those of the base, outside those of a drum, or above those of a plate."""
+    """No centre lies below the centres of the base, outside those in a drum, or above those in a plate."""
     x, geometry = run.position, run.keys["geometry"]
     if not run.fixed.any() or geometry == "hopper":
         return
@@ -175,7 +175,7 @@ def held_back(run):
 def undriven(run):
     """Between standing boundaries, under gravity that does not turn, energy never rises, however far frames are apart.
     Rebounds with friction may raise it (Kane's example; docs/studies/accuracy.md); so may a solver that stops
-    early. The bound is that of created_energy."""
+    early. The bound is the same as in created_energy."""
     if is_driven(run) or run.keys["geometry"] == "shear" or run.time[0] < 0:
         return
     energy = sum(run.kinetic) + run.observables["potential_energy"]
@@ -186,8 +186,8 @@ def undriven(run):
 
 
 def rest(run):
-    """What is at rest, and not driven, stays at rest. At rest: for one fall through d_S/2 the kinetic energy is below
-    1e-12 of that which lifts all grains by d_S."""
+    """A bed that is at rest, and not driven, stays at rest. At rest: for one fall through d_S/2 the kinetic energy is below
+    1e-12 of the energy that lifts all grains by d_S."""
     if is_driven(run):
         return
     kinetic = sum(run.kinetic) / run.unit_of_energy

@@ -75,7 +75,7 @@ def multiple(interval, count):
 
 
 class Units:
-    """What other keys are drawn in: m, m/s^2, s."""
+    """Units of the other keys: m, m/s^2, s."""
 
     def __init__(self, small, gravity):
         self.small, self.gravity = small, gravity
@@ -126,7 +126,7 @@ def add_shape(dice, keys):
     grain = 1 / (1 - share + share / ratio**2)  # d_S^2, mean square of the diameter
     shape = {"drum": drum_shape, "column": column_shape, "hopper": hopper_shape}.get(keys["geometry"], bed_shape)
     area, depth = shape(dice, keys, ratio, wanted * grain / SOLID)
-    # Where cells are wide because large grains are, small ones are left out.
+    # If the cell is wide because large grains are, it would take too many small ones: they are left out.
     if area * SOLID * (1 - share) > MOST_GRAINS:
         share = 1 - MOST_GRAINS / (area * SOLID)
     if dice.chance(0.15) and share < 1:
@@ -190,7 +190,7 @@ def hopper_shape(dice, keys, ratio, area):
 
 
 def add_units(dice, keys, depth):
-    """d_S, density and gravity, mostly those of a laboratory, else of any size."""
+    """Draws d_S, density and gravity, mostly as in a laboratory, else of any size."""
     any_size = dice.chance(0.2)
     small = dice.log(1e-7, 1e4) if any_size else 0.005
     density = dice.log(1e-6, 1e6) if any_size else 1

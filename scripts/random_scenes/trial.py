@@ -104,7 +104,7 @@ def options(keys):
 
 
 def same_bytes(trial, folder, part, whole, first):
-    """Frames of `part` are those of `whole` from the frame `first` on."""
+    """Frames of `part` equal the frames of `whole` from number `first` on."""
     with h5py.File(f"{folder}/{part}") as a, h5py.File(f"{folder}/{whole}") as b:
         count = len(a[COMPARED[0]])
         different = [name for name in COMPARED if a[name][()].tobytes() != b[name][first:first + count].tobytes()]

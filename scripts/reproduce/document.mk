@@ -98,7 +98,7 @@ $(work)/flows.tsv: $(work)/fits.tsv $(call code,flows)
 # The tables behind the choices are not kept, only their result.
 $(work)/choices.tsv: $(every) $(call code,fits) | $(work)
 	$(if $(TABLES),$(reduce) choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
-# What it took trajectories to make.
+# Tables that only trajectories can give are kept.
 $(work)/combinations.tsv: $(KEPT)/combinations.tsv | $(work)
 	cp $< $@
 $(work)/combined.tsv: $(work)/combinations.tsv $(call code,combinations combined)

@@ -24,14 +24,14 @@ checksums: $(TABLES) $(PAGE) cost.tsv
 run.h5: scene.ini
 	$(run) $(campaign) simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
 
-# What a word in the name of a table, behind its tool, asks for; strideN: one frame of N.
+# Options by word in the name of a table, behind its tool; strideN: one frame of N.
 word_branch := --assign branch
 word_grain := --assign grain
 word_gauss := --assign gauss
 word_centre := --composition centre
 word_2dS := --layer 2dS
 word_8dS := --layer 8dS
-# Its labels were drawn anew, so the seal of the trajectory does not hold.
+# Random labels break the seal of the trajectory.
 word_random := --trust
 word_layer := --mean layer
 word_instant := --mean instant
@@ -68,7 +68,7 @@ stress-random.tsv: run.h5
 	$(table) $(bin)/$(call command_of,$(basename $@))
 	rm $(trajectory_stress-random)
 
-# What B is made of is the table, which has no restarts in its history.
+# B comes from the table, which has no restarts in its history.
 page.html: run.h5 stress.tsv
 	$(run) $(bin)/grseg-explore run.h5 stress.tsv --quiet --overwrite -o $@
 

@@ -25,7 +25,7 @@ OPTIONS = {
 MADE = ["tables", "-o", "--bin"]
 FITTED = [*MADE, "--bootstrap"]
 FLUX = [*FITTED, "--heights", "--begin", "--end"]
-# Of each command: its module, its options and what differs in them, and further ones.
+# Module and options of each command, and settings of these options that differ from OPTIONS.
 COMMANDS = {
     "fits": ("fits", [*FITTED, "--partition"], {}),
     "choices": ("fits", FITTED, {}),

@@ -49,7 +49,7 @@ def fluctuations(rows, pattern):
 
 
 def with_and_without_a_row(row):
-    """Whether some of the runs keep the row of large grains that the base traps, and others do not: they make no interval."""
+    """True if the base traps a row of large grains in some runs and not in others: they make no interval."""
     return row["trapped"] > 5 and row["trapped_reach"] > row["trapped"] / 2
 
 

@@ -85,7 +85,7 @@ def denser(options):
 
     In a flow without other forces motion gives B/c and d/c alone. A weight that only the large grains have enters their balance
     beside B. With f^L = phi_L (1 + B phi_S), a density rho_L = (1 + D) rho_S and a drag per volume of large grains, rho_S c (w_L - w_S) phi_S,
-    that does not depend on their density, the balance of the large grains less phi_L times that of the mixture is
+    that does not depend on their density, the balance of the large grains less phi_L times the balance of the mixture is
 
         c q = (B (1 + phi_L D) - D) X - d G,    q = phi_L phi_S (w_L - w_S),  X = phi_L phi_S g cos(slope),  G = dphi_L/dy.
 

@@ -33,7 +33,7 @@ class Table:
         return self.columns[name]
 
     def content(self):
-        """Of the two species, m^2 or kg: the density is 1."""
+        """Areas or masses of the two species, m^2 or kg: the density is 1."""
         kind = "area" if "area_S" in self.columns else "mass"
         return self[f"{kind}_S"], self[f"{kind}_L"]
 
@@ -50,7 +50,7 @@ def tensor(table, name, component):
 
 
 def stresses(table, rule, component):
-    """Of the small and of the large grains; rule: the large grain's share, or "size"; None: kinetic."""
+    """Stresses of the small and of the large grains; rule: the large grain's share, or "size"; None: kinetic."""
     part = lambda name: tensor(table, name, component)
     if rule is None:
         return part("K_S"), part("K_L")
@@ -165,7 +165,7 @@ class Runs:
         return [table_in(run.path(name)) for run in self.runs if chosen(run)]
 
     def seeds(self, variant):
-        """Those of which all mixtures have run."""
+        """Seeds for which all mixtures have run."""
         found = collections.Counter(run.seed for run in self.runs if run.variant == variant and run.slope == 23)
         return sorted(seed for seed, mixtures in found.items() if mixtures == max(found.values()))
 
@@ -230,20 +230,21 @@ def rows(folder):
 
 
 def combinations(options):
-    """Which choices the paper's numbers come from: every printed number under every combination of what it does not state.
+    """The paper's printed numbers under every combination of the choices that it does not state.
 
     The paper states layers of 4 d_S, windows of 1.25 s, all stages of all six mixtures, 0.01 < phi_S/phi_L < 100 and the component yy. Open are
         layers        which heights take part (d_S)
         frames        of a window
         form          of the fit of y over x: means of logarithms, the same weighted by frames times grains of the rarer species, or
                       least squares of y itself
-        mean          velocity that fluctuations are counted from: of the layer or of a fine profile over the window, or of layer and frame
-        velocity      of the step that a frame is: after it or in its middle
+        mean          velocity from which fluctuations count: of the layer or of a fine profile over the window, or of layer and frame
+        velocity      after the time step of a frame, or in its middle
         restitution   0.25 as a coefficient of velocities, or of energy, which makes 0.5
         for the profile of figure 3a alone: volume (with voids, or of grains) and period ("steady state", s)
-    A target is met where it differs from the paper's number by at most 1.96 standard errors, those of the paper (statements.py; where none is
-    printed, that of rounding) and of one set of runs like the paper's: sqrt(1 + 1/n) times the deviation of n seeds, taken from restitution 0.25.
-    It is not met where 1.96 of the latter are more than the room that the paper leaves (statements.py): such a combination says nothing about it.
+    A target is met if it differs from the paper's number by at most 1.96 standard errors. They are made of the paper's error (statements.py; if none
+    is printed, the error of rounding) and of the error of one set of runs like the paper's: sqrt(1 + 1/n) times the deviation of n seeds, taken from
+    restitution 0.25. It is not met if 1.96 of the latter are more than the room that the paper leaves (statements.py): such a combination says
+    nothing about it.
     """
     if os.path.isdir(options.source):
         if not options.output:

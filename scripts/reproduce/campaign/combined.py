@@ -1,6 +1,6 @@
-"""What the rows of `combinations` say: which choices make the paper's numbers.
+"""Finds in the rows of `combinations` the choices that make the paper's numbers.
 
-A row has the choices by axis, and of every target the number and its standard error.
+A row has the choices by axis, and the number and standard error of every target.
 """
 import itertools
 import math
@@ -10,7 +10,7 @@ import tables
 from tables import shared
 
 SIGMAS = 1.96
-# Means that an author may have taken fluctuations from; `others` is the profile without its bias.
+# Means from which an author may have taken fluctuations; `others` is the profile without its bias.
 TRIED = ("profile", "layer", "instant")
 
 
@@ -20,8 +20,8 @@ def target(statement, value=None, error=None, room=None):
             (statement.high - statement.low) / 2 if room is None else room)
 
 
-# Of the exponent no error is printed: that of the prefactor, as a part of it. The pressure's slope has the room of its B, as dB/ds is -1.
-# The slope of figure 4 has that of its line, 0.04, over half of the range of x, 0.2.
+# No error of the exponent is printed: it has the relative error of the prefactor. The pressure's slope has the room of its B, as dB/ds is -1.
+# The slope of figure 4 has the room of its line, 0.04, over half of the range of x, 0.2.
 TARGETS = {
     "slope": target(paper.SLOPE), "pressure": target(paper.B_PRESSURE, 0.955),
     **{f"B {rule}": target(paper.RULES[name], error=math.hypot(paper.FIT_ERROR, paper.RULES[name].error))
@@ -74,17 +74,17 @@ def an_author_may_have_tried(found):
 
 
 def meeting_most(found):
-    """Of the rows that meet most targets the most likely."""
+    """The most likely of the rows that meet most targets."""
     return max(an_author_may_have_tried(found), key=lambda row: (row["met"], row["log_likelihood"]))
 
 
 def without_the_lowest_layer(found):
-    """That layer has a trapped row of large grains in some runs and not in others: it makes errors wide, and the rest says more."""
+    """Rows without the lowest layer, which has a trapped row of large grains in some runs and not in others: it makes errors wide."""
     return [row for row in found if row["layers"].startswith("4-")]
 
 
 def report(found):
-    """What the rows say."""
+    """A sentence for each result of the rows."""
     tried, best = an_author_may_have_tried(found), meeting_most(found)
     above = meeting_most(without_the_lowest_layer(found))
     ours = next(row for row in found if tuple(row[axis] for axis in AXES) == OURS)

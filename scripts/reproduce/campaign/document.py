@@ -125,7 +125,7 @@ def rise(m):
 
 
 def source(m):
-    """Which part of the campaign the tables cover."""
+    """The part of the campaign that the tables cover."""
     paper = [f"phi{phi}-s23" for phi in ("0.06", "0.15", "0.30", "0.45", "0.60", "0.75")]
     paper += [f"phi0.45-s{slope}" for slope in (21, 22, 24, 25, 26)]
     missing = [name for name in paper if m.flow(name) is None]

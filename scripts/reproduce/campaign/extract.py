@@ -1,4 +1,4 @@
-"""What of a trajectory is kept beside its sums, and a trajectory with other labels."""
+"""Parts of a trajectory that are kept beside its sums, and a trajectory with other labels."""
 import shutil
 
 import h5py

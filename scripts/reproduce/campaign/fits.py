@@ -1,4 +1,4 @@
-"""What grseg-fit says of the campaign's runs: sets, choices and rules."""
+"""Fits of the campaign's runs by grseg-fit: sets, choices and rules."""
 import concurrent.futures
 import math
 import os
@@ -63,8 +63,8 @@ def fits(options):
         stage     all, early (t < EARLY) or late (t > LATE; both in tables.py)
         heights   inside (4dS:56dS: without the lowest layer and the surface) or all
         quantity component
-    A column for each number of grseg-fit follows, with NAME_low and NAME_high. Intervals of a flow are over its runs; those of
-    `mixtures` and `slopes` over compositions, with B over flows, equal flows and random flows in columns
+    A column for each number of grseg-fit follows, with NAME_low and NAME_high. Intervals of a flow are over its runs; intervals
+    of `mixtures` and `slopes` are over compositions, with B over flows, equal flows and random flows in columns
     B_flows ... (docs/studies/uncertainty.md). All rules are fitted for all times inside; stages
     and all heights by size only. A set without any usable point has no row.
     """
@@ -133,7 +133,7 @@ def choices(options):
 
     The flow is the first of FLOWS that has run, all seeds, between 4 and 56 d_S. Other simulations (its variants) are
     compared with the first 60 s of the flow, other reductions of the same frames with all of its time;
-    less and K_less are the differences. Intervals are those of the windows alone (docs/studies/uncertainty.md), because
+    less and K_less are the differences. Intervals are over windows alone (docs/studies/uncertainty.md), because
     often the same runs are compared.
         B H       by size and by half, yy
         K K_P     B_kappa, yy and of the pressure

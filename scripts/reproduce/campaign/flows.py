@@ -27,7 +27,7 @@ def of_contacts(options, run, duration):
 
 
 def weight(runs):
-    """Of grseg-fit, from the areas of the two species in the layers inside."""
+    """The weight of grseg-fit, from the areas of the two species in the layers inside."""
     total = 0
     for run in runs:
         head, rows = tables.read(run.path("stress"), ["y0", "y1", "frames", "area_S", "area_L"])

@@ -34,7 +34,7 @@ READ_AGAIN = ("stress", "stress-random", "micro")
 OF_PLAIN = ("stress", "kinetic", "micro", "balance", "segregation")
 OF_VARIANTS = ("micro", "segregation")  # their other results are in the choices
 OF_CONTROL = ("stress-random",) + OF_VARIANTS
-# Of the questions, where they exist; in longer windows, which ratios of sums do not notice, and the flux of layers.
+# Tables of the questions' runs, where they exist; in longer windows, which do not change ratios of sums, and with the flux of layers.
 OF_QUESTIONS = ("stress", "stress-random", "kinetic", "kinetic-instant", "kinetic-unbiased", "kinetic-middle", "kinetic-unbiased-middle",
                 "micro", "segregation", "balance-rules")
 COLUMNS["balance-rules"] = r"gravity_L_y|phi_L|B_kappa|push\S*|drag\S*|N_L_y|p_zero"

@@ -1,4 +1,4 @@
-"""What was measured: the tables of fits, flows and numbers, by name, and numbers as text."""
+"""Measured values: the tables of fits, flows and numbers, by name, and numbers as text."""
 import math
 import os
 
@@ -98,7 +98,7 @@ class Measured:
         return of_student(value, value - half, value + half, max(1, row["seeds"] - 1))
 
     def flows_with(self, name):
-        """What a number of this name was measured of, in order."""
+        """The flows, or sets of flows, that have a number of this name, in order."""
         return sorted(of for of, other in self._numbers if other == name)
 
     def plain_flows(self):

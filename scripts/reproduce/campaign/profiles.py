@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-import tables  # noqa: F401 (grseg's folder)
+import tables
 import grseg
 
 CONTACTS = ("A_SS", "A_LL", "M", "A_Sb", "A_Lb")

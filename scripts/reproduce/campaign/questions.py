@@ -1,4 +1,4 @@
-"""What the paper leaves open, flow by flow, and in the limit of rigid discs."""
+"""Questions that the paper leaves open, flow by flow, and in the limit of rigid discs."""
 import math
 import re
 import sys
@@ -70,7 +70,7 @@ def of_bed(run):
 
 
 def force_ratio(run):
-    """Mean |f| over the contacts of large grains over that of small ones, whole bed, last 15 s; a mixed contact counts for both."""
+    """Mean |f| of the contacts of large grains over the mean of small ones, whole bed, last 15 s; a mixed contact counts for both."""
     _, rows = tables.read(run.path("micro"), ["t1", "n_SS", "n_LS", "n_LL", "n_Sb", "n_Lb", "sum_f_SS", "sum_f_LS", "sum_f_LL", "sum_f_Sb", "sum_f_Lb"])
     late = [row for row in rows if row["t1"] > rows[-1]["t1"] - 15]
     mean = lambda s: sum(row[f"sum_f_{s}{s}"] + row["sum_f_LS"] + row[f"sum_f_{s}b"] for row in late) / \
@@ -99,11 +99,11 @@ def line(options, flow, runs, paper):
 
 
 def questions(options):
-    """What the paper leaves open: each flow with another choice beside the paper's, over the same time.
+    """Questions that the paper leaves open: each flow with another choice beside the paper's, over the same time.
 
     TABLES are folders of finished runs (make reproduce, make questions). One row per flow that has
-    a B, and one of all mixtures for each restitution; layers from 4 to 56 d_S (the same part of a bed of another depth), windows from the tables. Intervals are 95 %, of runs where there are several,
-    else of windows. The time of a comparison is that of the flow's own runs.
+    a B, and one of all mixtures for each restitution; layers from 4 to 56 d_S (the same part of a bed of another depth), windows from the tables. Intervals are 95 %, over runs if there are several,
+    else over windows. A comparison covers the time of the flow's own runs.
         B B_half_rule B_pressure   by size, by half, by size from the pressure
         B_fit                      by size from the paper's logarithmic fit, at phi = 1/2
         p_star                     the share at which B = 0, by sums

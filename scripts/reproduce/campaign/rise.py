@@ -19,7 +19,6 @@ ends, with normal forces:
     pairing      = -ln(f_S/f_L) - forces
     normal       = the rest of sigma_yy, by which it differs from the pressure
 """
-import math
 import statistics
 
 import numpy as np
@@ -95,7 +94,7 @@ def factors(layers):
 
 
 def terms(layers):
-    """Means of the logarithmic terms, and numbers of mixed contacts over those of neutral and of random pairs."""
+    """Means of the logarithmic terms, and the number of mixed contacts over their number for neutral and for random pairs."""
     each = logarithms(layers)
     use = (layers.grains >= FEW) & np.isfinite(sum(each.values()))
     weight = (layers.frames * layers.q)[use]

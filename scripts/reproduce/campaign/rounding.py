@@ -1,4 +1,4 @@
-"""How far rounded sums can have moved B."""
+"""Bounds for the error of B that comes from rounded sums."""
 import sys
 
 import numpy as np
@@ -41,7 +41,7 @@ def of_tables(paths, heights="4dS:56dS"):
 
 
 def rounding(options):
-    """How far rounding the sums of contacts can have moved B: bounds from the digits that tables hold.
+    """Bounds for the error of B that comes from rounding the sums of contacts to the digits that tables hold.
 
     Every number v of a table with "# kept: N digits" is known to half a unit of its last digit,
     h = 0.5 x 10^(floor(log10 |v|) - N + 1), areas to one digit more. B (by size, of sigma_yy) of all tables together changes by the

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-# What a word of a run's name sets: the first pattern that fits.
+# Settings by word of a run's name; the first pattern that fits counts.
 WORDS = [(r"phi(.*)", "phi-large = {}"), (r"seed(.*)", "seed = {}"), (r"step(.*)", "step = {}"), (r"s(\d.*)", "slope = {}"),
          (r"e(\d.*)", "restitution = {}"), (r"ratio(.*)", "size-ratio = {}"), (r"density(.*)", "density-ratio = {}"),
          (r"mu(.*)", "friction = {}"),
@@ -135,7 +135,7 @@ def outdated(options):
 
 def cost(_):
     """Cost of the run in this folder, from run.log: wall time of its simulation including restarts and of its
-    tables; processor time, except that of killed processes; the size of its trajectory."""
+    tables; processor time, without killed processes; the size of its trajectory."""
     with open("run.log") as log:
         text = log.read()
     simulation = re.findall(r"(?m)^.* s simulated in (\S+) s", text)[-1:]

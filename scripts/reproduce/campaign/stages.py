@@ -1,4 +1,4 @@
-"""What B follows in a flow that segregates."""
+"""The dependence of B on composition, flux and gradient in a flow that segregates."""
 import math
 
 import numpy as np
@@ -47,7 +47,7 @@ def background(points):
 
 
 def beyond(basis, weight, value):
-    """What `basis` does not explain in `value` (weighted least squares)."""
+    """The part of `value` that `basis` does not explain (weighted least squares)."""
     root = np.sqrt(weight)[:, None]
     solution = np.linalg.lstsq(basis * root, value * root[:, 0], rcond=None)[0]
     return value - basis @ solution
@@ -147,11 +147,11 @@ def jackknife(starts):
 
 
 def stages(options):
-    """What B follows in a flow that segregates: composition and height, the flux, or the gradient of composition.
+    """Tests if B in a flow that segregates follows composition and height, the flux, or the gradient of composition.
 
     The flows start with large grains below, mixed, and above, so that flux and gradient take both signs at the same composition
-    and height. A point is a layer of 4 d_S inside (4 to 56 d_S) over --window seconds of one run, weighted by its frames. What contacts give the large grains beyond
-    their share, psi_L - phi_L by size, is fitted by least squares as
+    and height. A point is a layer of 4 d_S inside (4 to 56 d_S) over --window seconds of one run, weighted by its frames. The large grains' share of the stress less
+    their share of the grains, psi_L - phi_L by size, is fitted by least squares as
 
         psi_L - phi_L = phi_L phi_S P(phi_L, y/H) + j q_L/sqrt(g d_S) + k d_S (d phi_L/dy)
 

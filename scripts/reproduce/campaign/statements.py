@@ -1,8 +1,8 @@
-"""What the paper states, and the range of values in which each statement counts as met.
+"""The paper's statements, and the range of values in which each statement counts as met.
 
 A range is the paper's value +- a tolerance, or one-sided for a claim ("more than 10 times"). It is the room that
-the paper itself leaves: its printed error, its digits, or the definitions that it does not give, and `source` says
-which. It is not an error of measurement. Ranges are fixed here, before the runs that are judged by them; verdicts.py
+the paper itself leaves: its printed error, its digits, or the definitions that it does not give; `source` names
+it. It is not an error of measurement. Ranges are fixed here, before the runs that are judged by them; verdicts.py
 has the one rule by which a measured number meets a range.
 """
 import math
@@ -29,7 +29,7 @@ class Statement:
 
 
 def number(text, value, tolerance, source, error=None, unit=None):
-    """A printed number: with its printed standard error, or that of rounding to a last digit worth `unit`."""
+    """A printed number, with its printed standard error, or the error of rounding to a last digit worth `unit`."""
     if error is None:
         error = unit / math.sqrt(12) if unit else 0
     return Statement(text, value - tolerance, value + tolerance, source, value, error)

@@ -1,4 +1,4 @@
-"""The campaign's runs and what grseg's programs say of them."""
+"""The campaign's runs, and results of grseg's programs for them."""
 import glob
 import math
 import os
@@ -27,7 +27,7 @@ def welch(*estimates):
 
 
 def line(x, y, weights=None):
-    """The least-squares line: level at x = 0, slope, what a variance of y, over the weights, makes of theirs (level, both,
+    """The least-squares line: level at x = 0, slope, their variances over the variance of y at weight 1 (level, both,
     slope), and the weighted sum of squares that it leaves."""
     w = weights or [1] * len(x)
     total, mx = sum(w), sum(a * b for a, b in zip(w, x)) / sum(w)
@@ -79,7 +79,7 @@ def by_flow(runs):
 
 
 def flows_in(options, otherwise=lambda run: True):
-    """Runs by flow: those of --flows, or else of which `otherwise` is true."""
+    """Runs by flow: the flows of --flows or, without it, all runs for which `otherwise` is true."""
     wanted = options.flows.split(",") if options.flows else None
     flows = by_flow(run for run in runs_in(options.tables) if (run.flow in wanted if wanted else otherwise(run)))
     if not flows:
@@ -88,7 +88,7 @@ def flows_in(options, otherwise=lambda run: True):
 
 
 def sizes_of(runs):
-    """How many runs each of several flows has, as grseg-fit takes it."""
+    """The option of grseg-fit with the number of runs of each flow."""
     return ["--flows", ",".join(str(len(of_flow)) for of_flow in by_flow(runs).values())]
 
 
@@ -110,12 +110,12 @@ def program(options, name, *words, columns=None):
 
 
 def fits(options, *words):
-    """What grseg-fit says, its fit of the paper too: one dictionary per rule and flow."""
+    """The numbers of grseg-fit, with the paper's fit: one dictionary per rule and flow."""
     return shared.by_rule(program(options, "grseg-fit", *words, "--fit", "paper")[1])
 
 
 def fits_if_any(options, label, *words):
-    """The same; none where there is nothing to fit, which is told on standard error."""
+    """The numbers of grseg-fit; none if it fails, and its sentence then goes to standard error."""
     try:
         return fits(options, *words)
     except RuntimeError as trouble:

@@ -12,10 +12,10 @@ from measured import Value, line_fit, plain
 
 
 class Target:
-    """A statement, what was measured, and the pairs (value, statement) that are judged, by the worst of them.
+    """A statement, our number as text, and the pairs (value, statement) that are judged, by the worst of them.
 
-    `one_of`: the independent statement of the paper that it is a form of, "" where the paper gives no number and makes no claim;
-    `numbers`: those of combined.TARGETS that it states."""
+    `one_of`: the independent statement of the paper of which it is a form, "" if the paper gives no number and makes no claim;
+    `numbers`: names in combined.TARGETS of the numbers that it states."""
 
     def __init__(self, name, statement, ours, points, why, one_of=None, numbers=()):
         self.name, self.statement, self.ours, self.points, self.why = name, statement, ours, points, why
@@ -96,8 +96,8 @@ def contact_stress(m):
 
 
 def with_and_without_a_row(m, flow):
-    """Whether some of the runs keep the row of large grains that the base traps, and others do not: they make no interval.
-    A whole row has 35 grains, runs without one keep up to 4."""
+    """True if the base traps a row of large grains in some runs and not in others: they make no interval. A whole row has
+    35 grains, runs without one keep up to 4."""
     trapped = m.number(flow, "lowest_large")
     return trapped.has_interval() and trapped.value > 5 and trapped.high > 1.5 * trapped.value
 

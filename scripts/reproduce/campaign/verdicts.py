@@ -1,10 +1,10 @@
 """The one rule by which measured numbers meet a statement of the paper.
 
-A statement is met where the whole 95 % interval lies in its range, not where it lies wholly outside,
-and undecided where it crosses an edge or does not exist. What our choices do not meet may be met by those that meet most of the paper's
-numbers (combined.py). Several points (a line, "always") are judged by the worst.
-Beside it stands the difference from the paper's value in standard errors, which asks for more: it knows no room
-for what the paper leaves open.
+A statement is met by our choices if the whole 95 % interval lies in its range, not met if it lies wholly outside,
+and undecided if it crosses an edge or does not exist. A statement that our choices do not meet may be met by the choices that meet
+most of the paper's numbers (combined.py). Several points (a line, "always") are judged by the worst.
+The difference from the paper's value in standard errors is a stricter measure, because it allows no room for choices
+that the paper leaves open.
 """
 import math
 
@@ -25,7 +25,7 @@ def verdict(value, statement):
 
 
 def reference(statement):
-    """What the difference is taken from: the paper's value, or the edge of a claim that has only one."""
+    """The number from which the difference is taken: the paper's value, or the edge of a claim that has only one."""
     if not math.isnan(statement.value):
         return statement.value
     edges = [edge for edge in (statement.low, statement.high) if math.isfinite(edge)]
@@ -39,7 +39,7 @@ def difference(value, statement):
 
 
 def margin(value, statement):
-    """How far inside the range the interval ends, in its units; negative outside."""
+    """Distance of the interval's ends from the edges of the range, the smaller one; negative outside."""
     return min(value.low - statement.low, statement.high - value.high)
 
 
