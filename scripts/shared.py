@@ -63,12 +63,16 @@ def changed(text, pattern, to):
     return text if new == body else sealed(new)
 
 
-def lines_of(path):
-    """Lines before the rows, names of the columns with units, rows of words."""
-    with open(path) as table:
-        lines = unsealed(table.read(), path).splitlines()
+def split(text, path="table"):
+    """Lines before the rows, names of the columns with units, rows of words. Exits where the table is not as it was written."""
+    lines = unsealed(text, path).splitlines()
     head = sum(line.startswith("#") for line in lines)
     return lines[:head], lines[head].split("\t"), [line.split("\t") for line in lines[head + 1:]]
+
+
+def lines_of(path):
+    with open(path) as table:
+        return split(table.read(), path)
 
 
 def numbers(cells):
@@ -79,27 +83,16 @@ def numbers(cells):
         return [numbers([cell])[0] for cell in cells] if len(cells) > 1 else cells
 
 
-def parse(text, columns=None, path="table"):
-    """Lines '# key: value' (the first of each key) and rows by column name without unit, of all columns or
-    those named. Exits where the table is not as it was written."""
-    header, names, rows = {}, None, []
-    for line in unsealed(text, path).splitlines():
-        if line.startswith("# "):
-            key, _, value = line[2:].partition(": ")
-            header.setdefault(key, value)
-        elif names is None:
-            names = [name.split("[")[0] for name in line.split("\t")]
-            wanted = [names.index(name) for name in columns] if columns else range(len(names))
-            names = [names[k] for k in wanted]
-        else:
-            cells = line.split("\t")
-            rows.append(dict(zip(names, numbers([cells[k] for k in wanted]))))
-    return header, rows
+def parse(text, path="table"):
+    """Lines '# key: value' (the first of each key) and rows by column name without unit."""
+    head, names, rows = split(text, path)
+    names = [name.split("[")[0] for name in names]
+    return dict(line[2:].partition(": ")[::2] for line in reversed(head)), [dict(zip(names, numbers(row))) for row in rows]
 
 
-def read(path, columns=None):
+def read(path):
     with open(path) as table:
-        return parse(table.read(), columns, path)
+        return parse(table.read(), path)
 
 
 def save(path, text):

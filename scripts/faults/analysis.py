@@ -466,7 +466,7 @@ FAULTS = [
     ("fits: slopes of all compositions", "scripts/reproduce/campaign/fits.py",
      "[run for run in plain if run.phi == 0.45]", "[run for run in plain if run.phi > 0]"),
     ("flows: weight without frames", "scripts/reproduce/campaign/flows.py",
-     "sum(row[\"frames\"] * row[\"area_S\"] * row[\"area_L\"]", "sum(row[\"area_S\"] * row[\"area_L\"]"),
+     "(sums[\"frames\"] * small * large)[use]", "(small * large)[use]"),
     ("rise: ends of equal contacts counted once", "scripts/reproduce/campaign/rise.py",
      "return 2 * layers.n_SS + layers.n_LS + layers.n_Sb, 2 * layers.n_LL", "return layers.n_SS + layers.n_LS + layers.n_Sb, layers.n_LL"),
     ("rise: neutral contacts with the species exchanged", "scripts/reproduce/campaign/rise.py",

@@ -54,7 +54,7 @@ class Numbers(Pipeline):
     def with_answers(self, answer, measure, part):
         """`answer(words)` gives the rows that a program prints."""
         told, numbers.tables.program = numbers.tables.program, \
-            lambda options, name, *words, columns=None: ({}, answer([name, *map(str, words)]))
+            lambda options, name, *words: ({}, answer([name, *map(str, words)]))
         try:
             return measure(None, part)
         finally:

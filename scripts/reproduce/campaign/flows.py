@@ -2,6 +2,7 @@
 import math
 
 import tables
+import grseg
 
 MEASURED = ("small", "large", "H0", "yL0", "yL1", "rate", "strain", "t50", "tau", "z_S", "z_L", "f_S",
             "f_L", "zf_S", "zf_L", "duration")
@@ -30,10 +31,10 @@ def weight(runs):
     """The weight of grseg-fit, from the areas of the two species in the layers inside."""
     total = 0
     for run in runs:
-        head, rows = tables.read(run.path("stress"), ["y0", "y1", "frames", "area_S", "area_L"])
-        d = float(head["small_diameter"])
-        total += sum(row["frames"] * row["area_S"] * row["area_L"] / (row["area_S"] + row["area_L"])**2 for row in rows
-                     if 4 * d < row["y0"] + d / 2 and row["y1"] - d / 2 < 56 * d and 0.01 * row["area_L"] <= row["area_S"] <= 100 * row["area_L"] > 0)
+        sums = grseg.read_table(run.path("stress"))
+        d, small, large = sums.number("small_diameter"), sums["area_S"], sums["area_L"]
+        use = (4 * d < sums["y0"] + d / 2) & (sums["y1"] - d / 2 < 56 * d) & (0.01 * large <= small) & (small <= 100 * large) & (large > 0)
+        total += (sums["frames"] * small * large)[use] @ (1 / (small + large)[use] ** 2)
     return total
 
 

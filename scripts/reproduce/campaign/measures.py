@@ -52,9 +52,8 @@ def pressures(_, part):
     return found
 
 
-def derived(options, runs, *words, columns=None):
-    return tables.program(options, "grseg-derive", *(run.path("micro") for run in runs),
-                          "--quiet", *words, columns=columns)[1]
+def derived(options, runs, *words):
+    return tables.program(options, "grseg-derive", *(run.path("micro") for run in runs), "--quiet", *words)[1]
 
 
 def last_layers(part):
@@ -140,8 +139,7 @@ def b_of_structure(options, runs, words):
     for run in runs:
         sums = grseg.read_table(run.path("micro"))
         rarer = dict(zip(zip(sums["t0"], sums["y0"]), np.minimum(sums["grains_S"], sums["grains_L"])))
-        for row in derived(options, [run], "--heights", "4dS:56dS", *words,
-                           columns=["t0", "y0", "frames", "phi_L", "s_Pi"]):
+        for row in derived(options, [run], "--heights", "4dS:56dS", *words):
             phi = row["phi_L"]
             if not math.isnan(row["y0"]) and 0 < row["s_Pi"] < math.inf and 0.01 <= (1 - phi) / phi <= 100:
                 weight = row["frames"] * rarer[row["t0"], row["y0"]]

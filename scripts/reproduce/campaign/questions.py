@@ -4,6 +4,7 @@ import re
 import sys
 
 import tables
+import grseg
 
 NAN = math.nan
 FLOW_BEFORE = 10  # s of the paper's flow before the state from which another program continues (open-questions.md)
@@ -53,10 +54,10 @@ def strengths(options, runs, begin, end):
 def of_bed(run):
     """y_L/H and the large grains of the lowest layer in the last window, the mean shear rate."""
     found = {"yL_end": NAN, "trapped": NAN, "rate": NAN, "overlap": NAN, "f_ratio": NAN}
-    header, rows = tables.read(run.path("stress"), ["t0", "y0", "area_L"])
-    last = [row for row in rows if row["t0"] == rows[-1]["t0"] and row["y0"] == 0]
-    if last and "large_diameter" in header:
-        found["trapped"] = last[0]["area_L"] / (math.pi / 4 * float(header["large_diameter"]) ** 2)
+    sums = grseg.read_table(run.path("stress"))
+    last = sums["area_L"][(sums["t0"] == sums["t0"][-1]) & (sums["y0"] == 0)]
+    if len(last) and "large_diameter" in sums.header:
+        found["trapped"] = last[0] / (math.pi / 4 * sums.number("large_diameter") ** 2)
     if run.has("segregation"):
         _, bed, found["rate"] = tables.of_bed(run)
         found["yL_end"] = bed[-1]["yL"] / bed[-1]["height"]
@@ -71,15 +72,14 @@ def of_bed(run):
 
 def force_ratio(run):
     """Mean |f| of the contacts of large grains over the mean of small ones, whole bed, last 15 s; a mixed contact counts for both."""
-    _, rows = tables.read(run.path("micro"), ["t1", "n_SS", "n_LS", "n_LL", "n_Sb", "n_Lb", "sum_f_SS", "sum_f_LS", "sum_f_LL", "sum_f_Sb", "sum_f_Lb"])
-    late = [row for row in rows if row["t1"] > rows[-1]["t1"] - 15]
-    mean = lambda s: sum(row[f"sum_f_{s}{s}"] + row["sum_f_LS"] + row[f"sum_f_{s}b"] for row in late) / \
-        sum(row[f"n_{s}{s}"] + row["n_LS"] + row[f"n_{s}b"] for row in late)
-    return mean("L") / mean("S")
+    sums = grseg.read_table(run.path("micro"))
+    late = sums["t1"] > sums["t1"][-1] - 15
+    of = lambda name, s: sum(sums[f"{name}_{pair}"][late].sum() for pair in (s + s, "LS", s + "b"))
+    return of("sum_f", "L") / of("n", "L") / (of("sum_f", "S") / of("n", "S"))
 
 
 def line(options, flow, runs, paper):
-    end = min(tables.read(run.path("stress"), ["t1"])[1][-1]["t1"] for run in runs)
+    end = min(grseg.read_table(run.path("stress"))["t1"][-1] for run in runs)
     row = {"flow": flow, "phi": runs[0].phi, "slope": runs[0].slope, "runs": len(runs), "end": end}
     own = strengths(options, runs, 0, end)
     before = FLOW_BEFORE if "-lammps" in flow else 0

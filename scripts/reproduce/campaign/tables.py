@@ -5,6 +5,8 @@ import os
 import re
 import sys
 
+import numpy as np
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 import shared  # noqa: E402
 from shared import mean_and_half_width, parse, read, student, write  # noqa: E402, F401
@@ -29,13 +31,12 @@ def welch(*estimates):
 def line(x, y, weights=None):
     """The least-squares line: level at x = 0, slope, their variances over the variance of y at weight 1 (level, both,
     slope), and the weighted sum of squares that it leaves."""
-    w = weights or [1] * len(x)
-    total, mx = sum(w), sum(a * b for a, b in zip(w, x)) / sum(w)
-    my = sum(a * b for a, b in zip(w, y)) / total
-    sxx = sum(a * (b - mx) ** 2 for a, b in zip(w, x))
-    slope = sum(a * (b - mx) * (c - my) for a, b, c in zip(w, x, y)) / sxx
+    x, y, w = np.array(x), np.array(y), np.array(weights or [1.0] * len(x))
+    total, mx, my = w.sum(), np.average(x, weights=w), np.average(y, weights=w)
+    sxx = w @ (x - mx) ** 2
+    slope = w * (x - mx) @ (y - my) / sxx
     level = my - slope * mx
-    left = sum(a * (c - level - slope * b) ** 2 for a, b, c in zip(w, x, y))
+    left = w @ (y - level - slope * x) ** 2
     return level, slope, (1 / total + mx**2 / sxx, -mx / sxx, 1 / sxx), left
 
 
@@ -104,9 +105,9 @@ def of_bed(run):
     return header, bed, rate * math.sqrt(d / g)
 
 
-def program(options, name, *words, columns=None):
+def program(options, name, *words):
     """The table printed by one of grseg's programs."""
-    return parse(shared.tool(options.bin, name, *words), columns, name)
+    return parse(shared.tool(options.bin, name, *words), name)
 
 
 def fits(options, *words):
