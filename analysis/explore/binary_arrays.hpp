@@ -11,12 +11,12 @@
 
 namespace grseg {
 
-/// Arrays of numbers for a page, which finds them by name. All their bytes become one zlib stream in
-/// base64, which a browser unpacks by itself. The lowest bytes of an array's numbers come first, then the
-/// next ones, and so on: so they compress better.
+/// Named arrays of numbers for a page. All bytes together are one zlib stream in base64, which a browser
+/// can unpack. An array holds the lowest bytes of all its numbers, then the next ones, and so on,
+/// because they compress better in that order.
 class BinaryArrays {
  public:
-  /// Numbers without sign of 8, 16 or 32 bits, floats and doubles.
+  /// Adds an array of unsigned numbers of 8, 16 or 32 bits, of floats or of doubles.
   template <class Number>
   void add(const std::string& name, const std::vector<Number>& values)
   {
@@ -27,7 +27,7 @@ class BinaryArrays {
 
   /// {"x": {"type": "u16", "offset": 0, "length": 12}, ...}: offset in bytes, length in numbers.
   const nlohmann::ordered_json& directory() const { return directory_; }
-  /// RunError where the memory does not suffice.
+  /// All arrays. RunError where the memory does not suffice.
   std::string base64() const;
 
  private:

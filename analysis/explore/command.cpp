@@ -34,7 +34,7 @@ Json rules_known()
   return rules;
 }
 
-/// As the files tell them; whether it is so is found out when a run is read.
+/// Digest and bed of each run, as its file states them; the digest is checked when the run is read.
 std::vector<RunIdentity> identities_of(const std::vector<std::string>& runs)
 {
   std::vector<RunIdentity> identities;
@@ -46,7 +46,7 @@ std::vector<RunIdentity> identities_of(const std::vector<std::string>& runs)
   return identities;
 }
 
-/// Tells on standard error what the report of a run says against it.
+/// Prints on standard error which checks a run fails, and why there is no B.
 void remark(const ToolInfo& info, const RunOfPage& run)
 {
   const auto failures = run.content["checks"]["failures"].get<std::string>();

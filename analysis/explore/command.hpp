@@ -5,7 +5,7 @@
 
 namespace grseg {
 
-/// Which part of the page is seen first.
+/// The tab at which the page opens.
 enum class PageTab { explore, report };
 
 /// grseg-explore and grseg-report: the same page, opened at one of its tabs. Returns the exit code.

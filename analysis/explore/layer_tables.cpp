@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A table by layer in the making: means over windows, weighted by their frames.
+/// Builds a table by layer from windows: means weighted by the frames of each window.
 class LayerTable {
  public:
   LayerTable(const char* name, const char* tool, const char* note, std::vector<std::string> shown)
@@ -38,7 +38,7 @@ class LayerTable {
   {
   }
 
-  /// What is not a number in a window counts in no mean.
+  /// Adds a layer of one window; NaN and infinities count in no mean.
   void add(const Window& window, std::size_t layer, const std::vector<Cell>& cells)
   {
     if (columns_.empty()) columns_ = columns_of(cells);
@@ -51,6 +51,7 @@ class LayerTable {
         means_[layer][k].frames += frames;
       }
   }
+  /// The finished table, see layer_tables().
   Json take(const Layers& layers)
   {
     table_["columns"] = {"y0[m]", "y1[m]"};
@@ -210,7 +211,7 @@ Json balance_table(FrameLoop& loop)
   return table.take(layers);
 }
 
-/// First column about the whole bed in the table of grseg-segregation, behind those of layers.
+/// First column about the whole bed in the table of grseg-segregation; columns of layers come before it.
 constexpr const char* first_of_bed = "yL[m]";
 
 template <int D>
@@ -221,7 +222,7 @@ Json segregation_of(FrameLoop& loop, const RowFilter& filter)
   SegregationTable<D> run(loop.layers(), small, large);
   const auto columns = SegregationTable<D>::columns();
   const auto first = std::ranges::find(columns, first_of_bed) - columns.begin();
-  /// Begin and end of a window, or their names, and what the table says of the bed.
+  // Begin and end of a window, or their names, and the cells of the row, or their names, about the bed.
   const auto of_bed = [&](auto begin, auto end, const auto& row) {
     Json all{begin, end};
     for (auto cell = row.begin() + first; cell != row.end(); ++cell) all.push_back(*cell);

@@ -23,7 +23,7 @@ using Kind = PartitionRule::Kind;
 
 constexpr ScanRange grid{0, 1, 0.01};
 
-/// The rules whose stresses a page is given; of all others it finds them between these.
+/// Rules whose stresses are in the page, which computes all other rules from them.
 struct GivenRule {
   const char* name;
   PartitionRule rule;
@@ -57,7 +57,7 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
   }
 }
 
-/// The layers of all tables, each with its mean over time, as if they were one window.
+/// Means over time of each layer of all tables, as samples of a single window.
 FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair)
 {
   std::map<std::pair<double, double>, std::vector<const FitRow*>> rows;
@@ -88,7 +88,7 @@ FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair
   return data;
 }
 
-/// What tables of one kind come to: the samples of the fit, and the layers.
+/// Contents of the tables of one kind, by window and layer (`samples`) and as means over time (`layers`).
 struct Selected {
   std::vector<FitTable> tables;
   std::vector<Flow> flows;
@@ -108,7 +108,7 @@ Selected select(const std::vector<Table>& tables, const std::vector<PartitionRul
   return all;
 }
 
-/// Of two species alone, in which what large grains do not get goes to the small ones.
+/// Adds the large grains' stresses under power:Q. For two species only: the small grains have the rest.
 void add_powers(const StressTables& input, const PartitionSettings& settings, BinaryArrays& arrays)
 {
   std::vector<double> of_samples, of_layers;
@@ -148,7 +148,7 @@ Json rule_object(const RuleFit& fit, const std::vector<Flow>& flows)
           {"B", b_with_interval(fit)}};
 }
 
-/// B over the share p with its band, and of two species where it is 0.
+/// B with its interval for each share p, and the p at which it is 0, for two species.
 Json scan_object(const Selected& selected, const PartitionSettings& settings)
 {
   const Bootstrap bootstrap(selected.samples.runs, settings.resampling.samples,

@@ -10,8 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A list of each frame, one after the other, as codes between its bounds, which hold those of `q` unless
-/// these are all that is wanted; the bounds.
+/// Adds a list of all frames, one after the other, as codes of `q`, and returns the bounds and the step of
+/// the codes. With `widen`, the bounds of `q` are first widened to hold all numbers.
 Json add_codes(const ShownRun& run, const char* name, std::vector<float> ShownFrame::*list,
                BinaryArrays& arrays, Quantisation q = {}, bool widen = true)
 {
@@ -25,7 +25,7 @@ Json add_codes(const ShownRun& run, const char* name, std::vector<float> ShownFr
   return {{"from", q.from()}, {"step", q.step()}};
 }
 
-/// Where grains are; along a periodic axis codes fill the cell.
+/// Adds the positions of grains; along a periodic axis codes span the cell. Returns their bounds.
 Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
 {
   const auto cell = box.periodic_x ? Quantisation(0, box.length_x) : Quantisation();
@@ -35,7 +35,7 @@ Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
   return all;
 }
 
-/// The grains of the contacts, in as few bytes as their number allows.
+/// Adds the two grains of each contact, as numbers of type Index.
 template <class Index>
 void add_pairs(const ShownRun& run, BinaryArrays& arrays)
 {
@@ -68,7 +68,8 @@ Json add_contacts(const ShownRun& run, BinaryArrays& arrays)
           {"across", add_codes(run, "across", &ShownFrame::across, arrays, zero)}};
 }
 
-/// Walls as the last frame knows them, in those before by number; returns how many.
+/// Adds the walls of each frame: as many as the last one has, NaN for walls not yet known. Returns their
+/// number.
 std::size_t add_walls(const ShownRun& run, BinaryArrays& arrays)
 {
   const std::size_t count = run.frames.empty() ? 0 : run.frames.back().walls.size();

@@ -13,7 +13,7 @@
 
 namespace grseg {
 
-/// Numbers between two bounds in 16 bits: 65,535 equal steps, and a code for what is not a number.
+/// Codes of 16 bits for numbers between two bounds: 65,535 equally spaced values, and a code for NaN.
 class Quantisation {
  public:
   static constexpr std::uint16_t none = 65535, last = 65534;
@@ -21,7 +21,7 @@ class Quantisation {
   Quantisation() = default;
   Quantisation(double from, double to) : from_(from), to_(to) {}
 
-  /// Bounds that hold this number, too; what is not a number changes nothing.
+  /// Widens the bounds to hold this number; NaN changes nothing.
   void include(double value)
   {
     if (std::isnan(value)) return;
@@ -30,7 +30,7 @@ class Quantisation {
   }
   double from() const { return is_empty() ? 0 : from_; }
   double to() const { return is_empty() ? 0 : to_; }
-  /// The width of a step; a number differs from what its code stands for by half of it at most.
+  /// Distance of two codes. A number differs from the value of its code by at most half of it.
   double step() const { return (to() - from()) / last; }
 
   std::uint16_t code(double value) const
@@ -48,20 +48,21 @@ class Quantisation {
   double to_ = -std::numeric_limits<double>::infinity();
 };
 
-/// A ShownRun for a page, positions, radii in the plane and forces in 16 bits. Adds to `arrays`
+/// Prepares a ShownRun for a page, with positions, radii in the plane and forces in 16 bits. Adds to `arrays`
 ///
 ///   species (255: base), radius (m), row       by grain
 ///   x, y, and of spheres cut_radius            by frame and grain: Quantisation "x", "y", "cut"
 ///   contact_offset                             by frame and once more: where its contacts begin
-///   i, j, along, across                        by contact: i less that of the contact before in its
-///                                              frame; wall w has j = 2^16 - 1 - w, of more than 2^15
-///                                              grains 2^32 - 1 - w; Quantisation "along", "across"
+///   i, j, along, across                        by contact: i less the i of the contact before in its
+///                                              frame; wall w has j = 2^16 - 1 - w, or 2^32 - 1 - w if
+///                                              there are more than 2^15 grains; Quantisation "along",
+///                                              "across"
 ///   walls                                      by frame and wall: normal x, y, offset (m)
 ///
-/// and returns what is needed to read them: bounds, numbers, times and gravity (m/s^2, by frame).
+/// and returns bounds of the codes, numbers of things, times (s), steps and gravity (m/s^2) by frame.
 nlohmann::ordered_json player_data(const ShownRun& run, const Box& box, BinaryArrays& arrays);
 
-/// Bytes of these arrays at most, where `frames` frames are shown; for spheres about as many.
+/// Largest number of bytes of these arrays if `frames` frames are shown; for spheres an estimate.
 double player_bytes(const TrajectoryReader& run, std::size_t frames);
 
 }  // namespace grseg

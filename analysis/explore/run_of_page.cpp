@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Fits, or the sentence that tells why there is nothing to fit.
+/// The fits, "fit", or the reason why there are none, "why_no_fit".
 Json fitted(const StressTables& input, PartitionSettings settings, const std::string& base,
             BinaryArrays& arrays)
 {
@@ -42,7 +42,7 @@ Json fitted(const StressTables& input, PartitionSettings settings, const std::st
   }
 }
 
-/// What the file says, and how it is cut into species and windows.
+/// Summary of the file, and the species of grains.
 Json facts_of(const FrameLoop& loop)
 {
   auto facts = run_summary(loop.run());
@@ -53,7 +53,8 @@ Json facts_of(const FrameLoop& loop)
   return facts;
 }
 
-/// How the sums are cut into windows, and whether "y" is height ("layers") or what "bins" of the table says.
+/// Windows of the sums, s, and the coordinate of their bins: "layers" for heights, or as the line "bins" of
+/// the table names it.
 Json cut_of(const Table& sums)
 {
   const auto begin = sums.column("t0"), end = sums.column("t1");
@@ -81,7 +82,7 @@ Json player_of(const FrameLoop& loop, const ExploreSettings& s, BinaryArrays& ar
   });
 }
 
-/// Those that were given, or made of the run.
+/// The sums of a run: from the given table, or made here if it is null.
 StressTables sums_of(FrameLoop& loop, const Table* given, const std::string& command)
 {
   if (given == nullptr) return make_stress_tables(loop, command);
@@ -118,8 +119,8 @@ std::string text_of(const std::vector<double>& numbers)
 
 constexpr std::string_view summary_prefix = "summary_";
 
-/// /parameters whose names begin with summary_, or the others; texts that are shown elsewhere are not
-/// among them.
+/// Names and values of /parameters: of those named summary_*, or of all others but the texts that the page
+/// shows elsewhere.
 Json parameters_of(const TrajectoryReader& run, bool of_summary)
 {
   Json all = Json::array();
@@ -162,7 +163,7 @@ void refuse_too_large(const ToolInfo& info, const po::variables_map& values,
     megabytes += 1e-6 * player_bytes(loop.run(), frames_to_show(loop, s).size());
   }
   if (megabytes <= most_megabytes) return;
-  // evenly_spaced() may show half as many more as it is asked for.
+  // Divided by 1.5, since evenly_spaced() may show half as many more as asked for.
   const double fewer = s.shown_frames * most_megabytes / megabytes / 1.5;
   throw UsageError(fmt::format(
       "{}: about {} frames, as --frames {} has it, are {:.0f} MB of positions and forces, and a page "

@@ -13,40 +13,40 @@
 
 namespace grseg {
 
-/// What a page has of a run, its arrays, and the sums that those of all runs together are made of.
+/// One run for a page: JSON and arrays, and its sums, from which the sums of all runs are made.
 struct RunOfPage {
   nlohmann::ordered_json content;
   BinaryArrays arrays;
   StressTables sums;
 };
 
-/// The arrays of a page are no larger than this, in MB. A browser reads each run's from a string of base64,
-/// four bytes for three, and strings end at 2^29 characters in Chromium; while it opens the page it holds
-/// them four times.
+/// Largest size of all arrays of a page, MB. A browser reads the arrays of a run from a string of base64,
+/// four bytes for three, and a string of Chromium has at most 2^29 characters. While the page opens, the
+/// arrays are in memory four times.
 inline constexpr double most_megabytes = 300;
 
-/// UsageError, before frames are read, where those to be shown of all runs would be more.
+/// UsageError where the arrays of all runs would be larger than that. Reads no frames.
 void refuse_too_large(const ToolInfo& info, const po::variables_map& values,
                       const std::vector<std::string>& runs, const ExploreSettings& settings);
 
-/// Reads the run in file `path` as often as it takes. `table`: the sums that were given of it, if any;
-/// otherwise they are made. `command` is the last line of their history.
+/// Reads the run in file `path`, several times. `table`: its sums if they were given; null: they are
+/// made. `command` is the last line of their history.
 RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,
                       const std::string& path, const Table* table, const ExploreSettings& settings,
                       const std::string& command);
 
-/// The fits of all runs together, or the sentence that tells why there is none.
+/// The fits of all runs together, or the sentence that tells why there are none.
 nlohmann::ordered_json fitted_together(const std::vector<RunOfPage>& runs,
                                        const ExploreSettings& settings, BinaryArrays& arrays);
 
-/// What was run, with which settings and how accurately, as far as the file says so:
+/// Summary of a run, as its file states it:
 ///
 ///   name, digest, verified, notes (pairs: incomplete, undecided, waived), history, program,
 ///   dimension, frames, contacts, begin, end (s), scene (the text of /parameters/scene, or ""),
 ///   parameters (pairs of name and text), accuracy (pairs of /parameters/summary_*),
 ///   observables (name, unit, mean and largest over all frames)
 ///
-/// No text is fit for a page as it is: what makes a page of it has to escape it.
+/// Texts are not escaped for HTML.
 nlohmann::ordered_json run_summary(const TrajectoryReader& run);
 
 /// The lines of `grseg-check --physics` of the run in file `path`, which is read as a whole:
@@ -54,20 +54,20 @@ nlohmann::ordered_json run_summary(const TrajectoryReader& run);
 /// "verdict", "remark"}, ...]}.
 nlohmann::ordered_json check_run(const std::string& path);
 
-/// What grseg-stress, -kinetic, -derive and -balance tell of a run with their defaults, by layer:
-/// means of the rows of all windows, weighted by frames. A list of
+/// Results of grseg-stress, -kinetic, -derive and -balance for a run, with their defaults, by layer: means
+/// over all windows, weighted by frames. A list of
 ///
 ///   {"name": "kinetic", "tool": "grseg-kinetic", "note": "...", "columns": ["y0[m]", ...],
 ///    "shown": ["u[m/s]", ...], "rows": [[...], ...]}
 ///
-/// `shown` are the columns to read first. The frames are read several times. What a run does not allow
-/// (one species, no forces on grains) is left out; `missing` then says why.
+/// `shown` names the columns to read first. The frames are read several times. A table that the run does
+/// not allow (one species, no forces on grains) is left out, and `missing` has a sentence that says why.
 nlohmann::ordered_json layer_tables(FrameLoop& loop);
 
-/// What grseg-segregation tells of a run of two species: {"numbers": [[name, value, low, high], ...],
-/// "remarks": [...], "columns": ["t0[s]", ...], "rows": [[...], ...]}: those of --summary between
-/// `heights`, and of each window the heights of the species' centres, the shear and how well grains are
-/// mixed. Null of a run of another number of species.
+/// Results of grseg-segregation for a run of two species: {"numbers": [[name, value, low, high], ...],
+/// "remarks": [...], "columns": ["t0[s]", ...], "rows": [[...], ...]}. Numbers and remarks are as --summary
+/// prints them for layers between `heights`; a row has the heights of the species' centres, the shear
+/// and the mixing in one window. Null if the run has another number of species.
 nlohmann::ordered_json segregation_data(FrameLoop& loop, const std::string& heights);
 
 }  // namespace grseg

@@ -29,8 +29,8 @@ void ExploreSettings::add_to(po::options_description& options)
 {
   auto add = options.add_options();
   add("frames", po::value(&shown_frames)->default_value(shown_frames)->value_name("N"),
-      "show about N frames, in equal steps; sums are of all");
-  const auto first = "the rule that the page begins with: " + list_of_rules("or");
+      "show about N frames, in equal steps; sums use all frames");
+  const auto first = "rule that the page shows at first: " + list_of_rules("or");
   add("partition", word_option(&start, words_of_rule()), first.c_str());
   add("rules", words_option(rules, words_of_rules()),
       "rules that the report compares (default: stock, those of published codes)");
@@ -40,10 +40,10 @@ void ExploreSettings::add_to(po::options_description& options)
        " (default: as in the table)")
           .c_str());
   add("pair", po::value(&partition.pair)->value_name("A,B"),
-      "of more than two species the two that are compared, by name or number (default: 1,2)");
+      "the two species that are compared, by name or number, if there are more (default: 1,2)");
   add("heights",
       po::value(&partition.filters.heights)->value_name("y0:y1")->default_value(inside_the_bed),
-      fmt::format("layers of which B is made: {}", heights_help).c_str());
+      fmt::format("layers that count for B: {}", heights_help).c_str());
   add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", po::value(&seed)->default_value(seed)->value_name("N"), "seed of the samples");
@@ -81,7 +81,7 @@ void ExploreSettings::check(const po::variables_map& values)
   frames.output.check(values);
   const bool to_terminal = frames.output.path.empty() && isatty(STDOUT_FILENO) == 1;
   if (to_terminal && !frames.json)
-    throw UsageError("a page is nothing for a terminal; name it, e.g. -o explore.html");
+    throw UsageError("a terminal cannot show a page; name a file for it, e.g. -o explore.html");
 }
 
 ExploreInputs inputs_of(const po::variables_map& values)
@@ -115,7 +115,7 @@ po::variables_map with_inputs(const po::variables_map& values,
 
 namespace {
 
-/// Options, each after a space, of what is not as without them.
+/// " NAME VALUE" for a shell, or "" where the value is the default `usual`.
 template <class T>
 std::string option(const char* name, const T& value, const T& usual)
 {
@@ -142,7 +142,8 @@ std::string stress_options(const FrameOptions& own)
          (own.trust.trust ? " --trust" : "");
 }
 
-/// Of a table that was given the rows are chosen when B is found, of one that is made when it is made.
+/// Options of grseg-fit. Times select rows of a table that was `given`; a table that is made here has them
+/// from grseg-stress.
 std::string fit_options(const ExploreSettings& own, bool given)
 {
   const ExploreSettings usual;

@@ -14,7 +14,7 @@
 
 namespace grseg {
 
-/// What the command line of grseg-explore and grseg-report says.
+/// Options of grseg-explore and grseg-report.
 struct ExploreSettings {
   FrameOptions frames;
   PartitionSettings partition;
@@ -24,28 +24,28 @@ struct ExploreSettings {
   long seed = 1;
 
   void add_to(po::options_description& options);
-  /// Refuses what cannot be meant, before any run is read, and sets `partition` from the words.
+  /// Sets `partition` from the options. UsageError where one has a wrong value. Reads no run.
   void check(const po::variables_map& values);
 };
 
-/// Runs, and tables of sums.
+/// Paths of runs and of tables of sums.
 struct ExploreInputs {
   std::vector<std::string> runs, tables;
 };
-/// What the command line names, told apart by how files begin. UsageError where a file is missing or
-/// there is no run.
+/// The files that the command line names; a file that begins as HDF5 does is a run. UsageError where a file
+/// is missing or there is no run.
 ExploreInputs inputs_of(const po::variables_map& values);
 
-/// The same command line as if these inputs had been given alone.
+/// The command line with these inputs in place of its own.
 po::variables_map with_inputs(const po::variables_map& values,
                               const std::vector<std::string>& paths);
 
-/// The commands that print the B of a page, for a shell, as far as they do not depend on the rule:
+/// Commands for a shell that print the B of a page, without the options that depend on the rule:
 ///
 ///   {"sums": "grseg-stress run.h5 --window 2", "file": "sums.tsv", "fit": " --heights 4dS:"}
 ///
-/// `sums` is empty where the sums came in a table, `given`, whose name is `file` then. `number`: of the run
-/// among several; 0 of a single one.
+/// If the sums came in a table, `given`, then `sums` is empty and `file` is its name. `number` counts the
+/// runs from 1; it is 0 if there is one run.
 nlohmann::ordered_json commands_of(const std::string& run, const Table* given,
                                    const ExploreSettings& settings, std::size_t number);
 

@@ -18,10 +18,10 @@ namespace grseg {
 namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-/// Of a unit vector: what has less of it in the plane goes across.
+/// Smallest length in the plane of a unit vector; a shorter one counts as perpendicular to the plane.
 constexpr double along_the_plane = 1e-3;
 
-/// Radius of the disc that the plane cuts out of a grain; NaN where it misses it.
+/// Radius of the disc that the plane cuts out of a grain, m; NaN if it misses the grain.
 template <int D>
 double radius_in_plane(double radius, const Vector<D>& position, double plane)
 {
@@ -44,13 +44,13 @@ void show_grains(const Grains& grains, const Frame<D>& frame, double plane, Show
   }
 }
 
-/// Walls as lines in a plane of constant z, under numbers from 0 on.
+/// Walls as lines in the plane z = `plane`, m, numbered from 0 in order of their first contact.
 template <int D>
 class WallsInPlane {
  public:
   explicit WallsInPlane(double plane) : plane_(plane) {}
 
-  /// All that are known with the contacts of one more frame.
+  /// All walls known so far, after the contacts of one more frame.
   std::vector<ShownWall> with(const Frame<D>& frame)
   {
     walls_.add(frame);
@@ -59,7 +59,7 @@ class WallsInPlane {
     for (const auto& [number, wall] : walls_.all()) lines[numbers_.at(number)] = line_of(wall);
     return lines;
   }
-  /// As contacts name it: j < 0 of the file becomes one of few.
+  /// New j for a wall's j < 0 of the file: -1 minus the number of the wall.
   std::int32_t renumbered(std::int32_t j) const
   {
     return -1 - static_cast<std::int32_t>(numbers_.at(-1 - j));
@@ -82,7 +82,7 @@ class WallsInPlane {
   std::map<std::int32_t, std::size_t> numbers_;
 };
 
-/// Their numbers, by (i, j).
+/// Numbers of the contacts, sorted by (i, j).
 template <int D>
 std::vector<std::size_t> in_order(const ContactList<D>& contacts)
 {
@@ -115,8 +115,8 @@ void show_contacts(const Frame<D>& frame, const WallsInPlane<D>& walls, ShownFra
   }
 }
 
-/// What an overlap or a gap makes of the share of a mixed contact that a cut at the contact point
-/// gives to its larger grain, against one in proportion to the radii.
+/// Largest difference, over mixed contacts, between the shares under contact-point and under size, which an
+/// overlap or a gap causes.
 template <int D>
 double contact_point_from_size(const Grains& grains, const ContactList<D>& contacts)
 {
@@ -142,12 +142,12 @@ std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std
   return rows;
 }
 
-/// Leaves out all grains but `rows`.
+/// Leaves out all grains but `rows`, which rise; `number` has the new number of each grain.
 void renumber(ShownFrame& frame, const std::vector<std::uint32_t>& rows,
               const std::vector<std::int32_t>& number)
 {
   for (auto* list : {&frame.x, &frame.y, &frame.radius}) {
-    for (std::size_t g = 0; g < rows.size(); ++g) (*list)[g] = (*list)[rows[g]];  // rows rise
+    for (std::size_t g = 0; g < rows.size(); ++g) (*list)[g] = (*list)[rows[g]];
     list->resize(rows.size());
   }
   for (auto* list : {&frame.i, &frame.j})

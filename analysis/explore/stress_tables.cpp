@@ -19,7 +19,7 @@
 namespace grseg {
 namespace {
 
-/// The same sums for several exponents, or none, in one pass over the frames.
+/// Sums for several exponents of power:Q, or without one, in one pass over the frames.
 template <int D>
 struct StressOfPowers {
   std::vector<PartialContactStress<D>> of;  // by exponent
@@ -41,7 +41,7 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
   return first;
 }
 
-/// Without rows.
+/// Table with its header and no rows; `power`: exponent of power:Q, or nothing.
 Table table_of(const FrameLoop& loop, std::optional<double> power, const std::string& command,
                const std::vector<std::string>& columns)
 {
@@ -86,15 +86,15 @@ StressTables make_tables(FrameLoop& loop, const std::string& command)
   return all;
 }
 
-/// The number of the one run that a table was made of: by its digest, or of another file of the same
-/// flow by its bed.
+/// Number of the run from which a table was made: the run with its digest, else one with its bed, which is
+/// another file of the same flow.
 std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
 {
   const auto program = header_or(table, "program", "");
   const auto name = printable(table.name);
   if (!program.starts_with("grseg-stress ") && !program.starts_with("grseg-merge "))
     throw FormatError(fmt::format(
-        "{}: is {}; beside runs only tables of grseg-stress are used", name,
+        "{}: is {}; only tables of grseg-stress can be given beside runs", name,
         program.empty() ? "not a table made by grseg" : "a table of " + printable(program)));
   const auto inputs = header_values(table, "input");
   if (inputs.size() != 1)
@@ -109,8 +109,8 @@ std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
                          [&](const RunIdentity& run) { return run.bed == bed; });
   if (found == runs.end())
     throw FormatError(fmt::format(
-        "{}: is of the run with the digest {}, and neither that nor its bed is that of a run given; name "
-        "that run, make the table anew, or leave it out: sums are then made of the run",
+        "{}: is of the run with the digest {}, and no run given has this digest or the same bed; name that "
+        "run, make the table again, or leave it out: sums are then made from the run",
         name, printable(inputs.front())));
   return static_cast<std::size_t>(found - runs.begin());
 }

@@ -14,8 +14,8 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr const char* font = "DejaVu Sans";
 
-/// Fonts that came with the program (scripts/portable) are used where the system may have none. True
-/// once they are chosen: several canvases may be made at a time, and setenv is for one thread.
+/// Makes cairo use the fonts that came with the program (scripts/portable), if any: the system may have
+/// none. Returns true, to be kept in a static: several threads make canvases, and setenv is for one.
 bool use_own_fonts()
 {
   std::error_code none;
@@ -27,7 +27,7 @@ bool use_own_fonts()
   return true;
 }
 
-/// What a desktop is set to must not change the bytes.
+/// Fixes how text is drawn, so that the user's desktop settings do not change the bytes of a picture.
 void fix_font_options(cairo_t* cairo)
 {
   cairo_font_options_t* options = cairo_font_options_create();
@@ -43,7 +43,7 @@ void fix_font_options(cairo_t* cairo)
 Canvas::Canvas(cairo_surface_t* surface, double em, bool quick)
     : cairo_(cairo_create(surface)), em_(em), quick_(quick)
 {
-  // Files that are not pixels may be looked at from near by.
+  // px; fine in still pictures, because SVG and PDF may be magnified.
   cairo_set_tolerance(cairo_.get(), quick ? 0.25 : 0.02);
   if (quick) cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_FAST);
   [[maybe_unused]] static const bool chosen = use_own_fonts();

@@ -20,20 +20,20 @@ using CairoSurface = std::unique_ptr<cairo_surface_t, CairoSurfaceDeleter>;
 /// Paints on a surface of cairo. Lengths are in pixels, y points down the page.
 class Canvas {
  public:
-  /// `em`: size of the letters. `quick`: circles have fewer corners and edges fewer shades, which
-  /// nobody sees in a film.
+  /// `em`: size of the letters, px. `quick`, for films: circles with fewer corners, edges with fewer
+  /// shades.
   Canvas(cairo_surface_t* surface, double em, bool quick = false);
 
   double em() const { return em_; }
 
   void fill_all(const Colour& colour);
   void disc(const Vec2& centre, double radius, const Colour& colour);
-  /// With a rim of its own colour, `rim` wide, inside the radius.
+  /// A disc with a rim of another colour; the rim is `rim` px wide and lies inside the radius.
   void rimmed_disc(const Vec2& centre, double radius, const Colour& colour,
                    const Colour& rim_colour, double rim);
-  /// Lit from above left.
+  /// A sphere, lit from above left.
   void ball(const Vec2& centre, double radius, const Colour& colour);
-  /// A line with a round beginning, and end if `round_end`.
+  /// A line that begins round; it also ends round if `round_end`.
   void capsule(const Vec2& from, const Vec2& to, double width, bool round_end,
                const Colour& colour);
   void line(const Vec2& from, const Vec2& to, double width, const Colour& colour);
@@ -45,7 +45,8 @@ class Canvas {
   void clip(std::span<const Vec2> corners);
   void end_clip();
 
-  /// One line of text whose baseline begins at `at`, or has it in its middle. `size` in em.
+  /// One line of text; `at` is the left end of its baseline, or the middle where it is centred. `size`
+  /// and the returned width: em and px.
   void text(const Vec2& at, const std::string& text, const Colour& colour, double size = 1);
   void centred_text(const Vec2& at, const std::string& text, const Colour& colour, double size = 1);
   double text_width(const std::string& text, double size = 1) const;

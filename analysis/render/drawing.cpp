@@ -30,7 +30,7 @@ std::vector<Disc> discs_of(const Grains& grains, const Frame<D>& frame,
     if (!is_present(frame, g)) continue;
     const auto nearness = view.nearness<D>(frame.position[g]);
     if (!nearness) continue;
-    // In two dimensions nothing is nearer; boundary grains then lie below.
+    // In two dimensions no grain is nearer than another, and boundary grains are drawn first.
     const double order = D == 3 ? *nearness : is_mobile(grains, g) ? 1 : 0;
     const Vec2 centre = view.flat<D>(frame.position[g]);
     const Vec2 reach = Vec2::Constant(grains.radius[g]);
@@ -43,7 +43,7 @@ std::vector<Disc> discs_of(const Grains& grains, const Frame<D>& frame,
   return discs;
 }
 
-/// The lines of contact `k`, of which `whole` is the whole one, by the rule of the style.
+/// Adds contact `k` as lines in the colours of its two species: `whole`, divided by the rule of the style.
 template <int D>
 void add_shared(std::vector<Line>& lines, const Line& whole, const Grains& grains,
                 const Frame<D>& frame, std::size_t k, const LineStyle& style)

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-/// What of a frame is drawn, in metres in the plane of the picture; images of what crosses a period
-/// are things of their own.
+/// Shapes that are drawn of a frame, in metres in the plane of the picture. A grain or contact that
+/// crosses a period appears once for each of its images.
 namespace grseg {
 
 struct Disc {
@@ -21,20 +21,20 @@ struct Disc {
   double order;  // the lowest is drawn first
 };
 
-/// A contact, or one grain's part of it. It begins at the centre of a grain, where it is round.
+/// A contact, or one grain's part of it. It begins, with a round end, at the centre of a grain.
 struct Line {
   Vec2 from, to;
   double width;
   Colour colour;
-  bool round_end;  // it also ends at a grain
+  bool round_end;  // the other end is at a grain, too
 };
 
-/// A straight wall that stands upright on the plane; `normal` points to the grains.
+/// A straight wall perpendicular to the plane; `normal` points to the grains.
 struct WallLine {
   Vec2 point, normal;
 };
 
-/// In the order in which it is drawn: walls, discs, lines.
+/// Everything in one panel. Walls are drawn first, then discs, then lines.
 struct Drawing {
   double time = 0;              // s
   Vec2 gravity = Vec2::Zero();  // m/s^2, its part in the plane
@@ -47,8 +47,8 @@ struct Drawing {
 struct ColourScale {
   ColourMap map = viridis;
   Range range{0, 1};
-  bool below = false, above = false;  // some numbers lie there and have the colour of the end
-  Colour pale;                        // what all colours are mixed with, and its share
+  bool below = false, above = false;  // some numbers lie beyond that end and have its colour
+  Colour pale;                        // mixed into all colours, with the share `paleness`
   double paleness = 0;
 
   /// `place`: 0 to 1 along the map.
@@ -56,22 +56,21 @@ struct ColourScale {
   Colour at(double value) const { return at_place((value - range.low) / range.length()); }
 };
 
-/// What colour a grain has.
+/// Colours of grains: by species, or by the numbers of a field.
 struct GrainColours {
   std::vector<Colour> of_species;
-  Colour boundary;                   // and of grains without a number
-  std::optional<ColourScale> scale;  // where they show a field
+  Colour boundary;                   // of boundary grains, and of grains without a number
+  std::optional<ColourScale> scale;  // of the field; none: colours of species
 };
 
-/// How contacts are drawn: their normal force is the width of a line between the centres. With a
-/// rule a line has the colours of the species, and the part of it that belongs to each grain begins
-/// at that grain's centre.
+/// Style of contacts, which are lines between centres, as wide as the normal force is strong. If there
+/// is a rule, each grain's share of the line has the colour of its species and begins at its centre.
 struct LineStyle {
   double width_per_newton = 0;  // m/N
   std::optional<PartitionRule> rule;
   std::vector<Colour> of_species;
-  Colour plain;   // without a rule
-  Colour nobody;  // what no species has: the part of the base, and mixed contacts under `drop`
+  Colour plain;   // of all lines, without a rule
+  Colour nobody;  // of shares that no species has: of the base, and of mixed contacts under `drop`
 };
 
 struct DrawingStyle {
@@ -79,8 +78,8 @@ struct DrawingStyle {
   std::optional<LineStyle> lines;
 };
 
-/// `values` is empty, or has a number for each grain. In three dimensions what is nearer comes
-/// later; lines are those of the contacts whose contact point lies in the slab.
+/// Draws a frame. `values`: the field's number of each grain; empty without a field. In three
+/// dimensions nearer grains come later, and contacts are drawn if their contact point lies in the slab.
 template <int D>
 Drawing draw_frame(const Grains& grains, const Frame<D>& frame, const std::vector<double>& values,
                    Walls<D> walls, const View& view, const DrawingStyle& style);

@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-/// Linux starts no program with an argument of 128 KiB (MAX_ARG_STRLEN).
+/// Bytes; Linux limits each argument of a program to 128 KiB (MAX_ARG_STRLEN).
 constexpr std::size_t longest_comment = 100000;
 
 std::vector<std::string> words_of(const std::string& text)
@@ -37,7 +37,7 @@ std::vector<std::string> arguments(const std::string& path, const FilmFormat& fo
                    ? "-c:v libx264 -preset superfast -crf 23 -movflags +faststart -f mp4"
                    : "-c:v libvpx-vp9 -deadline good -cpu-used 4 -crf 30 -b:v 0 -f webm");
   all.insert(all.end(), coding.begin(), coding.end());
-  // As words of their own, since they may hold anything; "file:" so that no name is an address.
+  // Added unsplit, since they may hold spaces; "file:" keeps ffmpeg from taking a name for an address.
   all.insert(all.end(), {"-metadata", "comment=" + shortened(format.history, longest_comment),
                          "file:" + path});
   return all;

@@ -12,25 +12,25 @@
 
 namespace grseg {
 
-/// Where ffmpeg is. RunError, with the remedy, where it is not in PATH.
+/// Path of ffmpeg. RunError, with the remedy, where it is not in PATH.
 std::string find_ffmpeg();
 
-/// Of the numbers of frames, in order, those that a film shows: the first in each span of `every`
-/// seconds, all where `every` is 0. `times` (s) are those of all frames of the run; a frame may be
-/// half a step early. Spans without frames are passed over.
+/// Frames that a film shows, out of `frames` (numbers, in order): the first one in each span of `every`
+/// seconds, or all if `every` is 0. Spans without frames are skipped. `times`: of all frames of the run,
+/// s. `step`: time step of the run, s; a frame may be half a step early.
 std::vector<std::size_t> film_frames(const std::vector<double>& times,
                                      const std::vector<std::size_t>& frames, double every,
                                      double step);
 
-/// A text that fits into `most` bytes: of a longer one the middle is left out, and it says so.
+/// The text in at most `most` bytes: the middle of a longer one is replaced by a remark.
 std::string shortened(const std::string& text, std::size_t most);
 
-/// What a film is like.
+/// Size, speed and coding of a film.
 struct FilmFormat {
   PictureKind kind = PictureKind::mp4;
   Vec2 size = Vec2::Zero();  // px, even whole numbers
   double fps = 25;           // pictures per second
-  std::string history{};     // kept inside as comment, shortened where a program's argument must be
+  std::string history{};     // kept inside as comment, shortened if it is too long for an argument
 };
 
 /// A film that ffmpeg makes of the pictures that are added: H.264 in MP4, VP9 in WebM. The number of

@@ -43,15 +43,16 @@ constexpr FieldDefinition definitions[] = {
      "share of the largest species in the grains around, weighed by Lucy's function of radius "
      "LENGTH (default: 2dL)",
      FieldEnds::zero_to_one, "share of", "", nothing, "[:LENGTH]"},
-    {FieldKind::displacement, "displacement", "distance from where the grain was at TIME (s)",
+    {FieldKind::displacement, "displacement", "distance from the grain's place at TIME (s)",
      FieldEnds::zero_to_most, "displacement since t =", "m", image, ":TIME"},
-    {FieldKind::rise, "rise", "y minus what it was at TIME (s)", FieldEnds::both_signs,
+    {FieldKind::rise, "rise", "y less the grain's y at TIME (s)", FieldEnds::both_signs,
      "rise since t =", "m", nothing, ":TIME"},
 };
 
 constexpr const char* species_word = "species";
 
-/// Of an import, which may lack them (formats/README.md).
+/// Refuses an imported run that does not tell how often grains have crossed its periods
+/// (formats/README.md); `time` is the argument of --color displacement.
 void require_images(const TrajectoryReader& run, const std::string& time)
 {
   const auto& told = run.parameters();
@@ -74,7 +75,8 @@ Eigen::Index axis_of(const std::string& text, int dimension)
                                dimension == 3 ? "x, y and z" : "x and y"));
 }
 
-/// The radius of the neighbourhood, m. Each grain must have one image at most beyond each end of a period.
+/// The radius of the neighbourhood, m; no longer than a period, so that a grain has at most one image
+/// beyond each end.
 double radius_around(const std::string& length, const TrajectoryReader& run)
 {
   const double radius =
@@ -91,7 +93,8 @@ double radius_around(const std::string& length, const TrajectoryReader& run)
   return radius;
 }
 
-/// Where the grain is, counting the periods that it has crossed. Rises need not know them.
+/// Position of the grain, m, with the periods that it has crossed, if they were read: a rise does not
+/// need them.
 template <int D>
 Vector<D> place(const Frame<D>& frame, std::size_t grain, const Box& box)
 {
@@ -102,7 +105,7 @@ Vector<D> place(const Frame<D>& frame, std::size_t grain, const Box& box)
   return place;
 }
 
-/// Where all grains are when displacements begin to count.
+/// Positions of all grains at the time from which displacements count, m.
 template <int D>
 std::vector<Vector<D>> places_at(const FieldChoice& choice, const TrajectoryReader& run)
 {
@@ -129,7 +132,7 @@ double about_z(const Vec3& spin)
 template <int D>
 using Values = std::function<std::vector<double>(const Frame<D>&)>;
 
-/// number(frame, g) of each mobile grain.
+/// A field whose number is number(frame, g) for each mobile grain g.
 template <int D, class Number>
 Values<D> of_each(const Grains& grains, const Number& number)
 {
@@ -141,7 +144,8 @@ Values<D> of_each(const Grains& grains, const Number& number)
   };
 }
 
-/// Of each mobile grain the sum over its contacts: parts(frame, k) is what contact k adds to either grain.
+/// A field that sums over the contacts of each mobile grain: parts(frame, k) is the pair of numbers that
+/// contact k adds to its grains.
 template <int D, class Parts>
 Values<D> over_contacts(const Grains& grains, const Parts& parts)
 {
@@ -219,7 +223,8 @@ FieldChoice parse_field(const std::string& text)
       if (*field.argument == '\0' && colon != std::string::npos)
         throw UsageError(fmt::format("--color {}: nothing follows {}", text, word));
       if (field.needs_argument() && argument.empty())
-        throw UsageError(fmt::format("--color {}: say since when, as in {}:0", text, word));
+        throw UsageError(
+            fmt::format("--color {}: give the time to compare with, as in {}:0", text, word));
       return {&field, argument};
     }
   }

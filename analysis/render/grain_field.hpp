@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-/// A number for each grain, to colour it by. Boundary grains have none.
+/// Fields: a number for each grain, which gives its colour. Boundary grains have none.
 namespace grseg {
 
-/// How the colours of a field begin and end where nobody says so.
+/// First and last number of a field's colours, by default.
 enum class FieldEnds {
-  zero_to_most,  ///< what is never negative
+  zero_to_most,  ///< of fields that are never negative
   least_to_most,
   zero_to_one,
   both_signs,  ///< as far below 0 as above
@@ -42,9 +42,9 @@ struct FieldDefinition {
   FieldEnds ends;
   const char* title;  // beside the colour bar
   const char* unit;   // in two dimensions; "": a number
-  /// What must be read: `force` stands for how often grains have crossed the cell.
+  /// Parts of a frame that the field needs; `force` includes how often grains have crossed the cell.
   TrajectoryReader::Fields needs;
-  /// What may follow the word behind a colon, "[:AXIS]", or must, ":TIME"; "": nothing.
+  /// Argument after the word: "[:AXIS]" may be given, ":TIME" must be; "": none.
   const char* argument = "";
 
   bool needs_argument() const { return *argument == ':'; }
@@ -52,7 +52,7 @@ struct FieldDefinition {
 
 /// All fields, in the order of --help.
 std::span<const FieldDefinition> field_definitions();
-/// What each means, for --help; and the words alone.
+/// The words with their meanings, for --help; and the words alone.
 std::string list_of_fields();
 std::vector<std::string> words_of_fields();
 
@@ -78,9 +78,9 @@ class GrainField {
              const SpeciesList& species, const PartitionRule& rule);
 
   const FieldDefinition& definition() const { return *definition_; }
-  /// For the colour bar: what it is, with its unit.
+  /// Title of the colour bar: the quantity with its unit.
   const std::string& title() const { return title_; }
-  /// A number for each grain; NaN for boundary grains and those that are absent.
+  /// A number for each grain; NaN for boundary grains and absent ones.
   std::vector<double> values(const Frame<D>& frame) const { return values_(frame); }
 
  private:
@@ -89,17 +89,17 @@ class GrainField {
   std::function<std::vector<double>(const Frame<D>&)> values_;
 };
 
-/// The share of the grains of species `of` in the area or volume of mobile grains about each mobile
-/// grain: sum_of A_j w(r_ij)/sum A_j w(r_ij), where A is a grain's area or volume, r the distance of
-/// centres (m), and w Lucy's function (1 + 3u)(1 - u)^3 of u = r/radius, 0 from u = 1 on. The grain
-/// itself is among them, and so are all images within the radius, which is positive and no longer than
-/// a period. NaN for boundary grains and those that are absent.
+/// Share of species `of` in the area or volume of the mobile grains around each mobile grain:
+/// sum_of A_j w(r_ij)/sum A_j w(r_ij), where A is a grain's area or volume, r the distance of
+/// centres (m), and w Lucy's function (1 + 3u)(1 - u)^3 of u = r/radius, 0 from u = 1 on. The sums include
+/// the grain itself and all images within the radius, which is positive and no longer than a period.
+/// NaN for boundary grains and absent ones.
 template <int D>
 std::vector<double> local_composition(const Grains& grains, const Frame<D>& frame, const Box& box,
                                       Species of, double radius);
 
-/// The number of the frame whose time is nearest to `time` (s). UsageError naming `option` where
-/// that is farther away than the run's frames are from each other.
+/// Number of the frame nearest to `time` (s). UsageError naming `option` where `time` lies outside of the
+/// run by more than the time between frames.
 std::size_t frame_nearest(const TrajectoryReader& run, double time, const std::string& option);
 
 }  // namespace grseg

@@ -12,8 +12,8 @@
 namespace grseg {
 namespace {
 
-/// The number of a strip along x, along y and in three dimensions along z: whole numbers, as large
-/// as a height over a radius may be.
+/// Number of a strip along x, counted along y and, in three dimensions, along z. Whole numbers, but
+/// doubles: a height may be any multiple of the radius.
 using Strip = std::array<double, 2>;
 
 /// A mobile grain, or an image of it beyond an end of a period.
@@ -26,8 +26,8 @@ struct Image {
   auto key() const { return std::make_tuple(strip, centre.x()); }
 };
 
-/// Mobile grains and those of their images that lie within a radius of the cell, by strips along x,
-/// which are no narrower than the radius, and by x.
+/// Mobile grains and their images within a radius of the cell, sorted by strip, then by x. Strips lie
+/// along x and are no narrower than the radius.
 template <int D>
 class NearGrains {
  public:
@@ -41,7 +41,7 @@ class NearGrains {
     std::ranges::sort(images_, {}, &Image<D>::key);
   }
 
-  /// Calls book(grain, distance) for each that is nearer to `centre` than the radius.
+  /// Calls book(grain, distance) for each grain or image nearer to `centre` than the radius; m.
   template <class Book>
   void visit(const Vector<D>& centre, const Book& book) const
   {
@@ -75,7 +75,7 @@ class NearGrains {
         images_.push_back({strip_of(moved), moved, grain});
       }
   }
-  /// By how much a grain at `place` is to be moved along an axis for each of its images.
+  /// Shifts along an axis that give the images of a grain at `place`, m; the first one, 0, is the grain.
   std::vector<double> shifts(double place, bool periodic, double length) const
   {
     std::vector<double> all{0};

@@ -9,14 +9,14 @@
 
 namespace grseg {
 
-/// Where a point of the picture's plane (m) lies on the page (px).
+/// Maps points of the picture's plane (m) to the page (px, y downwards).
 class Projection {
  public:
-  /// The middle of `region` comes to `centre`; `angle` (rad) turns everything counter-clockwise.
+  /// The middle of `region` comes to `centre`; `scale` in px/m; `angle` (rad) turns counter-clockwise.
   Projection(const Region& region, const Vec2& centre, double scale, double angle);
 
   Vec2 operator()(const Vec2& point) const { return centre_ + direction(point - middle_); }
-  /// The same of a vector.
+  /// Maps a vector: turned and scaled, not shifted.
   Vec2 direction(const Vec2& vector) const;
   double scale() const { return scale_; }
 
@@ -25,11 +25,11 @@ class Projection {
   double scale_, cos_, sin_;
 };
 
-/// Width and height (m) of what a region covers when it is turned by `angle`.
+/// Width and height (m) of the upright rectangle around a region that is turned by `angle` (rad).
 Vec2 turned_size(const Region& region, double angle);
 
-/// Paints one panel: walls, grains, contacts, nothing outside of the region; the ends of a period
-/// are dashed. `balls`: grains are spheres.
+/// Paints walls, grains and contacts of one panel, cut off at the edge of the region; ends of periods are
+/// dashed. `balls`: grains are spheres.
 void paint_panel(Canvas& canvas, const Drawing& drawing, const View& view,
                  const Projection& to_page, const Theme& theme, bool balls);
 

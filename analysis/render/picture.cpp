@@ -14,10 +14,10 @@
 namespace grseg {
 namespace {
 
-// How much of the background is mixed into grains under lines, so that lines stand out.
+// Share of the background that is mixed into grains under lines, so that lines stand out.
 constexpr double pale_species = 0.62, pale_field = 0.45;
 
-/// As many decimals as tell the pictures' times from each other, or a single one from its neighbours.
+/// Number of decimals with which the pictures' times differ; one picture: the times of neighbouring frames.
 int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& frames)
 {
   const auto& times = run.times();
@@ -30,8 +30,8 @@ int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& fra
   return std::clamp(static_cast<int>(std::ceil(-std::log10(between) - 0.01)), 0, 6);
 }
 
-/// What is shown by default: along a period all of it; elsewhere as far as grains reach, with a
-/// margin of a third of the largest diameter.
+/// Region shown by default: the whole period along a periodic axis; elsewhere as far as grains reach,
+/// with a margin of a third of the largest diameter.
 template <int D>
 Region whole_region(const Survey<D>& survey, const View& view)
 {
@@ -79,7 +79,7 @@ Picture<D>::Picture(const TrajectoryReader& run, const GroupedGrains& grains,
   gravity_ = view_.flat<D>(run.gravity<D>().at(survey_.times.front()));
   if (settings.tilt && !(gravity_.norm() > 0))
     throw UsageError("--tilt: gravity has no part in the plane of the picture");
-  // Panels of a slope that turns have no direction in common.
+  // One arrow serves all panels, unless gravity turns between them.
   const bool common = panels == 1 || settings.tilt || !run.gravity<D>().turns();
   shows_gravity_ = common && gravity_.norm() > 0;
   lay_out_page(panels);
@@ -177,7 +177,7 @@ template <int D>
 std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, double width,
                                            const Vec2& gravity) const
 {
-  // Letters are measured on a surface that nobody sees.
+  // The surface is only there to measure letters.
   const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1));
   const Canvas canvas(surface.get(), settings_.em);
   const auto& ink = theme_.ink;
@@ -235,7 +235,7 @@ void Picture<D>::paint(cairo_surface_t* surface, std::span<const Drawing> drawin
                              angle(drawing.gravity));
     paint_panel(canvas, drawing, view_, to_page, theme_, D == 3);
     if (!settings_.no_time)
-      // Adding 0 makes a positive one of a negative one.
+      // Adding 0.0 turns -0 into 0.
       canvas.text(
           page_.panels[k] - Vec2(0, 0.6 * settings_.em),
           fmt::format("t = {:.{}f} s", std::round(drawing.time * 1e6) / 1e6 + 0.0, decimals_),

@@ -20,13 +20,13 @@
 
 namespace grseg {
 
-/// What pictures of a run show and how.
+/// Content and look of the pictures of a run.
 struct PictureSettings {
-  FieldChoice field;           // what colours grains
+  FieldChoice field;           // that gives grains their colours
   std::optional<Range> range;  // of the field's colours
   bool forces = false;         // contacts as lines
   double line_width = 0;       // m, of a contact with strong_force()
-  PartitionRule rule;          // of the field pressure, and where they are split, of the lines
+  PartitionRule rule;          // of the field pressure, and of lines that are split
   bool split_lines = false;
   std::string region, slice;  // as typed; "": the default
   Plane plane = Plane::xy;
@@ -43,16 +43,16 @@ struct PictureSettings {
 template <int D>
 class Picture {
  public:
-  /// `frames`: numbers of those that will be drawn, of which `panels` go on one page. UsageError where
+  /// `frames`: numbers of all frames that will be drawn. `panels`: frames on one page. UsageError where
   /// a setting does not fit the run. Both run and grains must outlive this.
   Picture(const TrajectoryReader& run, const GroupedGrains& grains,
           const std::vector<std::size_t>& frames, std::size_t panels,
           const PictureSettings& settings);
 
   const Page& page() const { return page_; }
-  /// What of a frame `draw` needs.
+  /// Parts of a frame that must be read for draw().
   TrajectoryReader::Fields needs() const { return survey_.needs; }
-  /// What a frame shows. Several threads may call it at once.
+  /// Drawing of a frame. Several threads may call it at once.
   Drawing draw(const Frame<D>& frame) const;
   /// Paints as many drawings as there are panels.
   void paint(cairo_surface_t* surface, std::span<const Drawing> drawings) const;
@@ -65,7 +65,7 @@ class Picture {
   std::vector<LegendItem> legend(double scale, const Vec2& panel, double width,
                                  const Vec2& gravity) const;
   std::string slab_text() const;
-  /// By which a picture with this gravity is turned, rad.
+  /// Angle by which a picture with this gravity is turned, rad, counter-clockwise.
   double angle(const Vec2& gravity) const;
 
   const TrajectoryReader& run_;

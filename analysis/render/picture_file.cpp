@@ -60,7 +60,7 @@ std::string png_bytes(const Vec2& size, const std::string& history, const Paint&
   paint(surface.get());
   std::string bytes;
   require_success(cairo_surface_write_to_png_stream(surface.get(), append, &bytes));
-  // Behind the signature and the first chunk, which is IHDR.
+  // Bytes of the signature and of the first chunk, IHDR.
   constexpr std::size_t begin = 8 + 25;
   bytes.insert(begin, text_chunk("Description", history));
   return bytes;
@@ -75,7 +75,7 @@ std::string vector_bytes(PictureKind kind, const Vec2& size, double points,
   CairoSurface surface(create(append, &bytes, points * size.x(), points * size.y()));
   require_success(cairo_surface_status(surface.get()));
   if (kind == PictureKind::pdf) {
-    // The time would make each file another one.
+    // No date: it would make the bytes of each file different.
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT, history.c_str());
   }
@@ -118,7 +118,7 @@ Pixels::Pixels(const Vec2& size, const Paint& paint) : surface_(image_surface(si
 
 std::span<const std::uint8_t> Pixels::bytes() const
 {
-  // Rows follow each other without a gap where a pixel has four bytes.
+  // The stride is the length of a row: with four bytes per pixel there are no gaps.
   const auto row = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
   const auto rows = static_cast<std::size_t>(cairo_image_surface_get_height(surface_.get()));
   return {cairo_image_surface_get_data(surface_.get()), row * rows};

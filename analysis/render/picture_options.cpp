@@ -58,16 +58,16 @@ void PictureOptions::add_to(po::options_description& options)
       "width that 99 of 100 lines do not exceed, counted over up to 16 of the frames");
   add("partition", word_option(&partition, words_of_rule()),
       ("with --forces: lines have the colours of the species, and mixed contacts are split where "
-       "the rule divides them; with --color pressure: which part of them counts; " +
+       "the rule divides them; with --color pressure: parts of mixed contacts for their grains; " +
        list_of_rules() + " (default of pressure: size)")
           .c_str());
   add("region", text(plain.region, "x0:x1,y0:y1"),
-      "what is shown, in lengths such as 10dS; beyond a period the cell is repeated (default: all)");
+      "part to show, in lengths such as 10dS; beyond a period the cell is repeated (default: all)");
   add("plane", word_option(&plane, words_of(planes)),
       ("in three dimensions: axis to the right and axis up the page, " + list_of(planes)).c_str());
   add("slice", text(plain.slice, "z0:z1"),
-      "in three dimensions: only grains whose centres lie there along the third axis (default: as "
-      "thick as the largest grain, in the middle)");
+      "in three dimensions: only grains with their centre in this range of the third axis (default: "
+      "as thick as the largest grain, in the middle)");
   add("project", po::bool_switch(&plain.project),
       "in three dimensions: all grains, the nearest in front");
   add("tilt", po::bool_switch(&plain.tilt),
@@ -79,7 +79,7 @@ void PictureOptions::add_to(po::options_description& options)
   add("no-time", po::bool_switch(&plain.no_time), "leave out the time");
   add("no-scale", po::bool_switch(&plain.no_scale),
       "leave out the scale bar, the direction of gravity and the slice");
-  add("no-bar", po::bool_switch(&plain.no_bar), "leave out what colours and lines mean");
+  add("no-bar", po::bool_switch(&plain.no_bar), "leave out the key of colours and lines");
 }
 
 PictureSettings PictureOptions::settings(const TrajectoryReader& run) const

@@ -12,16 +12,16 @@
 
 namespace grseg {
 
-/// What the command line says about pictures.
+/// Options of the command line about pictures.
 struct PictureOptions {
   std::vector<std::string> at;
   std::string color = "species", range, partition, force_width = "0.6dS", plane = "xy",
               theme = "light", width;
-  PictureSettings plain;  // what is meant as it is typed
+  PictureSettings plain;  // settings that need no parsing; the others keep their defaults
 
   void add_to(po::options_description& options);
 
-  /// UsageError where something is not what its option takes.
+  /// The settings for a run. UsageError where an option has a value that it does not take.
   PictureSettings settings(const TrajectoryReader& run) const;
   /// Numbers of the frames nearest to --at, by default the last one. UsageError where the run has no
   /// such time.
@@ -34,8 +34,8 @@ struct PageWidth {
   double em;      // px
   double points;  // for each pixel
 };
-/// "1280", or "86mm", "8.6cm", "3.4in", which has 300 pixels an inch and letters of 8 points; "": the
-/// default. UsageError where the text is none of these.
+/// Reads a width: pixels, "1280", or a length on paper, "86mm", "8.6cm" or "3.4in", with 300 pixels an inch
+/// and letters of 8 points; "" is the default. UsageError where the text is none of these.
 PageWidth parse_width(const std::string& text);
 
 }  // namespace grseg

@@ -23,9 +23,10 @@
 namespace grseg {
 namespace {
 
-constexpr int patience = 50;  // ms, until an interruption is noticed
+constexpr int patience = 50;  // ms between looks for an interruption
 
-/// Starts the program words[0] with these ends of its standard input and error; 0, or what went wrong as in errno.
+/// Starts the program words[0] with these files as standard input and error. Returns 0, or the error as
+/// in errno.
 int spawn(pid_t& process, std::vector<std::string> words, int input, int errors)
 {
   posix_spawn_file_actions_t files;
@@ -74,7 +75,7 @@ PipedProgram::PipedProgram(const std::string& path, const std::vector<std::strin
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     throw RunError(fmt::format("cannot make a pipe: {}", reason(errno)));
-  // So that an interruption is noticed while the other end reads nothing.
+  // A write that cannot go on returns, so that an interruption is noticed while the program reads nothing.
   fcntl(ends[1], F_SETFL, O_NONBLOCK);
   std::signal(SIGPIPE, SIG_IGN);
   std::vector<std::string> words{path};

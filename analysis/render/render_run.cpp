@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// Where frames are further apart than --every the film is faster than was asked for.
+/// Warns where frames are further apart than --every: the film is then faster than asked.
 void warn_if_sparse(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                     const RenderSettings& s)
 {

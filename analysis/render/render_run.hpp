@@ -13,7 +13,7 @@
 namespace grseg {
 
 struct RenderSettings {
-  const char* program = "";  // of words on standard error
+  const char* program = "";  // name in messages
   PictureOptions picture;
   FrameRange range;            // of a film
   double every = 0, fps = 25;  // of a film: s of the run from picture to picture, pictures per s
@@ -30,12 +30,12 @@ struct RenderSource {
   std::string history;  // kept in the file
 };
 
-/// The frames of --at side by side. Errors as Picture, PictureOptions and write_whole.
+/// Makes a picture of the frames of --at, side by side. Errors as Picture, PictureOptions and write_whole.
 template <int D>
 void make_picture(const RenderSource& source);
 
-/// The frames of the range, a picture for each span of `every`. UsageError where `every` is negative;
-/// errors as Picture, Film and Output; Interruption.
+/// Makes a film of the frames of the range, with a picture for each span of `every`. UsageError where
+/// `every` is negative; errors as Picture, Film and Output; Interruption.
 template <int D>
 void make_film(const RenderSource& source);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double round_off = 1e-9;
 
-/// 1, 2 or 5 times 10^exponent in order of size; `number` counts through them, also downwards.
+/// Round number: 1, 2 or 5 times a power of ten. `number` counts them in order of size; 0 is 1, -1 is 0.5.
 double round_number(long number)
 {
   constexpr double factors[] = {1, 2, 5};
@@ -22,7 +22,7 @@ double round_number(long number)
   return exponent < 0 ? factor / power : factor * power;
 }
 
-/// A number of a round number that lies below `value`, by less than a power of ten.
+/// Number of a round number (as above) below `value`, by less than a power of ten.
 long number_below(double value)
 {
   return 3 * static_cast<long>(std::floor(std::log10(value))) - 1;
@@ -33,7 +33,7 @@ int exponent_of(double value)
   return static_cast<int>(std::floor(std::log10(value) + round_off));
 }
 
-/// In metres, and its name.
+/// Unit for a length, in metres, and its name.
 std::pair<double, const char*> unit_of(double metres)
 {
   if (metres < 0.01 * (1 - round_off)) return {1e-3, "mm"};
@@ -76,7 +76,7 @@ std::vector<double> ticks(const Range& range, int most)
     const double first = std::ceil(range.low / step - round_off);
     const double last = std::floor(range.high / step + round_off);
     if (last - first >= most) continue;
-    // Multiplying, not adding up; and no negative zero.
+    // Products, since sums add up round-off; and 0 is never negative.
     for (long k = std::lround(first); k <= std::lround(last); ++k)
       all.push_back(k == 0 ? 0.0 : static_cast<double>(k) * step);
     return all;

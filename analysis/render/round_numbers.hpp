@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Numbers that people like to read beside a picture: 1, 2 or 5 times a power of ten.
+/// Round numbers for axes and bars: 1, 2 or 5 times a power of ten.
 namespace grseg {
 
 /// A span of numbers, low < high.
@@ -13,25 +13,23 @@ struct Range {
   double length() const { return high - low; }
 };
 
-/// The largest such number not above `most`, and the smallest one not below `least`; both arguments
-/// are positive.
+/// Largest round number not above `most`, and smallest one not below `least`; both are positive.
 double round_below(double most);
 double round_above(double least);
 
-/// The range widened to multiples of a round step, of which it then has 3 to 8; what is within
-/// round-off of a multiple stays. A range without length is widened by half its place to either side;
-/// that of 0 alone is 0 to 1.
+/// Widens a range to multiples of a round step; it then has 3 to 8 steps. Ends within round-off of a
+/// multiple stay there. A range without length, at x, becomes x - |x|/2 to x + |x|/2, or 0 to 1 if x is 0.
 Range round_range(const Range& range);
 
 /// Multiples of a round step that lie in the range: at most `most` of them, which is at least 2.
 std::vector<double> ticks(const Range& range, int most = 6);
 
-/// Those as text, with as many decimals as their step needs.
+/// Ticks as text, with as many decimals as their step needs.
 std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
 /// "5 mm", "2 cm", "1 m".
 std::string length_text(double metres);
-/// "0 to 5 mm", in the unit of the longer one.
+/// "0 to 5 mm", in the unit of the end that is farther from 0.
 std::string lengths_text(const Range& range);
 
 }  // namespace grseg

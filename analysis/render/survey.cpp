@@ -22,7 +22,7 @@ std::vector<std::size_t> evenly_spread(const std::vector<std::size_t>& frames)
   return some;
 }
 
-/// The number with `share` of all numbers below it; `values` has at least one.
+/// Quantile: the share `share` of all values lies below it. `values` has at least one, and is reordered.
 double quantile(std::vector<double>& values, double share)
 {
   const auto last = static_cast<double>(values.size() - 1);

@@ -11,23 +11,23 @@
 
 namespace grseg {
 
-/// What all pictures of a run have in common, so that they can be compared and a film does not
-/// flicker: how far the grains reach, how strong contacts are, where the field's numbers lie. It is
-/// taken from up to sixteen of the frames, evenly spread, the first and the last among them.
+/// Measures that all pictures of a run share, so that they can be compared and a film does not flicker:
+/// how far grains reach, how strong contacts are, where the field's numbers lie. They are taken from up
+/// to sixteen of the frames, evenly spread from the first to the last.
 template <int D>
 struct Survey {
-  /// Of all grains that are present, and of boundary grains; m.
+  /// Corners of the box around all grains that are present, boundary grains included; m.
   Vector<D> low, high;
   double largest_diameter = 0;  // m, of all grains
-  std::vector<double> forces;   // N, normal, of contacts that bear one, without order
+  std::vector<double> forces;   // normal forces of contacts, N, all positive, without order
   std::vector<double> values;   // of the field, without order
   Walls<D> walls;
   std::vector<double> times;  // s, of the frames
-  /// What of a frame is read for a picture.
+  /// Parts of a frame that are read for a picture.
   TrajectoryReader::Fields needs{.velocity = false, .contacts = true, .force = false};
 };
 
-/// `frames` are numbers of the run's frames, at least one.
+/// Surveys the run; `frames` are numbers of its frames, at least one.
 template <int D>
 Survey<D> survey_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                         const Grains& grains, const std::optional<GrainField<D>>& field);
@@ -35,8 +35,8 @@ Survey<D> survey_frames(const TrajectoryReader& run, const std::vector<std::size
 /// The force (N) that 99 of 100 contacts do not exceed; 0 where there are none.
 double strong_force(std::vector<double> forces);
 
-/// The ends of a field's colours: those that FieldEnds names, but one number in a hundred may lie
-/// beyond those which depend on the numbers; widened to round numbers.
+/// Range of a field's colours, by FieldEnds. An end that is taken from the values leaves one in a hundred
+/// beyond it. Widened to round numbers.
 Range range_of(FieldEnds ends, std::vector<double> values);
 
 }  // namespace grseg

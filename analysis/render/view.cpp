@@ -17,7 +17,7 @@ double period_along(Eigen::Index axis, const Box& box)
   return 0;
 }
 
-/// "a:b"; either may be left out.
+/// Reads "a:b", two lengths; one that is left out is taken from `otherwise`, m.
 Range parse_span(const std::string& text, const Range& otherwise, const std::string& option,
                  LengthUnits units)
 {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-/// Which part of the cell a picture shows, and from where.
+/// The part of the cell that a picture shows, and the direction from which.
 namespace grseg {
 
 /// The plane of a picture: its first axis points to the right, its second one up the page.
@@ -25,18 +25,18 @@ struct Region {
   Vec2 size() const { return high - low; }
 };
 
-/// Looks at the cell along the third axis from far away.
+/// A look at the cell along the axis that is not in the picture's plane, from far away.
 class View {
  public:
   View(Plane plane, const Box& box);
 
-  /// m, along the axes of the plane.
+  /// Components along the axes of the plane, m.
   template <int D>
   Vec2 flat(const Vector<D>& vector) const
   {
     return {vector[right_], vector[up_]};
   }
-  /// How near something is to who looks, m; nothing where it lies outside of the slab.
+  /// Coordinate towards the viewer, m: the larger, the nearer. Nothing outside of the slab.
   template <int D>
   std::optional<double> nearness(const Vector<D>& position) const;
 
@@ -47,19 +47,19 @@ class View {
   double period(int axis) const { return period_[static_cast<std::size_t>(axis)]; }
   double depth_period() const { return depth_period_; }
 
-  /// What is shown, m. Beyond a period the cell is repeated.
+  /// Part of the plane that is shown. Beyond a period the cell is repeated.
   Region region;
-  /// Of the axis looked along, m; nothing: all of it.
+  /// Range along the axis looked along, m, whose grains are shown; nothing: all of it.
   std::optional<Range> slab;
 
-  /// Calls place(shift) with every number of periods, m, by which what lies between `low` and `high`
-  /// (m, in the plane) must be moved to appear in the region.
+  /// Calls place(shift) for each shift by whole periods (m) that brings a part of the rectangle from
+  /// `low` to `high` (m, in the plane) into the region.
   template <class Place>
   void for_images(const Vec2& low, const Vec2& high, const Place& place) const;
 
  private:
   Eigen::Index right_, up_, depth_;
-  double towards_;  // 1 where the axis looked along points to who looks, else -1
+  double towards_;  // 1 if the axis looked along points to the viewer, else -1
   std::array<double, 2> period_;
   double depth_period_;
 };
@@ -83,12 +83,12 @@ void View::for_images(const Vec2& low, const Vec2& high, const Place& place) con
       place(Vec2(static_cast<double>(a) * period_[0], static_cast<double>(b) * period_[1]));
 }
 
-/// A region as typed, "x0:x1,y0:y1", in which what is left out is taken from `whole`; UsageError
-/// where it is none, or repeats a period of the view too often.
+/// Reads a region, "x0:x1,y0:y1"; an end that is left out is taken from `whole`. UsageError where the
+/// text is no region, or where it repeats a period of the view more than 20 times.
 Region parse_region(const std::string& text, const View& view, const Region& whole,
                     LengthUnits units);
 
-/// A slab as typed, "z0:z1". UsageError where it is none.
+/// Reads a slab, "z0:z1". UsageError where the text is none.
 Range parse_slab(const std::string& text, LengthUnits units);
 
 }  // namespace grseg

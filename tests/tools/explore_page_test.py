@@ -679,7 +679,7 @@ def check_edges():
         shown = page.text("b-interval").replace("−", "-")
         low, high = map(float, re.findall(r"-?[0-9.]+", shown)[:2])
         B = float(page.text("b-value").replace("−", "-"))
-        assert low < B < high and "that of uniform:" in shown, (shown, B)
+        assert low < B < high and "taken from uniform:" in shown, (shown, B)
         for beyond in (1.3, -0.2, None):
             page.run("grseg.content.runs[0].fit.scan.p_zero[0] = arguments[0]", beyond)
             page.keys("3", "0")
@@ -739,7 +739,7 @@ def check_walls_and_one_species():
         walls = len(set(file["grseg/contacts/j"][:][file["grseg/contacts/j"][:] < 0]))
         length = file["particles/grains/box/edges"][0] if "edges" in file["particles/grains/box"] else None
     with Page("column.html") as page:
-        assert "No B of this run" in page.text("heart") and "without large grains" in page.text("heart")
+        assert "No B for this run" in page.text("heart") and "without large grains" in page.text("heart")
         page.run("grseg.page.transport.goTo(grseg.page.transport.times.length - 1)")
         page.settle()
         known = page.run("const p = grseg.page.players[0]; return p.frames.walls(p.frame).map((wall) => Array.from(wall))")

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is shown stands in the fragment of the address, for a link that shows it to others:
+// The fragment of the address holds the state of the page, so that a link shows the same to others:
 // "#report&rule=uniform:0.62&time=4.5&run=2&grain=2:17&draw=forces,layers".
 
 import {byId} from "./format.js";
 import {parseRule, ruleName} from "./partition.js";
 import {listen, set, state} from "./state.js";
 
-/** Boxes of what is drawn: [word, id, name in the state]. */
+/** Checkboxes of the drawing: [word in the address, id, name in the state]. */
 export const boxes = [
   ["grains", "show-grains", "showGrains"],
   ["forces", "show-forces", "showForces"],
@@ -14,7 +14,7 @@ export const boxes = [
   ["layers", "show-layers", "showLayers"],
 ];
 
-/** Runs are counted from 1, the last one being all together; a grain is named by run and row of the file. */
+/** The fragment of the present state. Runs count from 1, the last one is all together; a grain is RUN:ROW, the row of the file. */
 function fragment(page) {
   const {tab, rule, time, run, player, grain} = state;
   const words = [tab, `rule=${ruleName(rule)}`, `time=${Number(time.toPrecision(6))}`];
@@ -24,7 +24,7 @@ function fragment(page) {
   return `#${words.join("&")}`;
 }
 
-/** Shows what the address tells; what the page does not have is passed over. */
+/** Sets the state from the address; parts that the page does not have are skipped. */
 export function restore(page) {
   const told = new URLSearchParams(window.location.hash.slice(1));
   const changes = {};
@@ -45,7 +45,7 @@ export function restore(page) {
   if (tab) page.showTab(tab);
 }
 
-/** From now on; where changes follow each other, after the last one: browsers allow few in a second. */
+/** Keeps the address up to date, 0.4 s after the last of several changes: browsers allow few changes in a second. */
 export function keepAddress(page) {
   let waiting = 0;
   listen(() => {

@@ -24,7 +24,7 @@ function setLabel(text, label) {
 export const upright = (mark, x, from, to) => mark.attr("x1", x).attr("x2", x).attr("y1", from).attr("y2", to);
 
 export class Chart {
-  /** `scales`: {x, y} of d3; `labels`: {x, y}; `height` in pixels; `name` for those who do not see it. */
+  /** `scales`: {x, y} of d3; `labels`: {x, y}; `height` in pixels; `name`: read out by screen readers. */
   constructor(host, {scales, labels, height, name, ticks = {}, logarithmic = false}) {
     this.host = host;
     this.logarithmic = logarithmic;
@@ -33,7 +33,7 @@ export class Chart {
     this.height = height;
     this.svg = select(host).append("svg").attr("role", "img").attr("aria-label", name);
     this.grid = this.svg.append("g").attr("class", "grid");
-    // What reaches beyond the axes is cut off.
+    // Marks under the axes are cut off at the ends of the axes.
     const clip = `clip-${++charts}`;
     this.clip = this.svg.append("clipPath").attr("id", clip).append("rect");
     this.under = this.svg.append("g").attr("clip-path", `url(#${clip})`);
@@ -54,7 +54,7 @@ export class Chart {
     return {left: margin.left, right: this.width - margin.right, top: margin.top, bottom: this.height - margin.bottom};
   }
 
-  /** Fits the place, and draws what does not depend on the data. */
+  /** Takes the width of its place, and draws axes and grid. */
   layout() {
     this.width = Math.max(220, Math.floor(this.host.clientWidth));
     this.svg.attr("width", this.width).attr("height", this.height).attr("viewBox", `0 0 ${this.width} ${this.height}`);

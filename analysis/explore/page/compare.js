@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several runs: what the rule of the moment makes of each, and of all together.
+// Table of several runs: B by the present rule for each run, and for all together.
 
 import {byId, element, fixed, interval} from "./format.js";
 import {fitOf, intervalOf, zeroOf} from "./partition.js";

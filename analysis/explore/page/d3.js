@@ -22,7 +22,7 @@ DAMAGES (INCLUDING, BUT NOT LIMITED TO, PROCUREMENT OF SUBSTITUTE GOODS OR SERVI
 BUSINESS INTERRUPTION) HOWEVER CAUSED AND ON ANY THEORY OF LIABILITY, WHETHER IN CONTRACT, STRICT LIABILITY, OR TORT
 (INCLUDING NEGLIGENCE OR OTHERWISE) ARISING IN ANY WAY OUT OF THE USE OF THIS SOFTWARE, EVEN IF ADVISED OF THE
 POSSIBILITY OF SUCH DAMAGE. */
-// What this page uses of d3; the rest is left out of the bundle.
+// Parts of d3 that this page uses; the bundle leaves out the rest.
 export {extent, group} from "d3-array";
 export {axisBottom, axisLeft} from "d3-axis";
 export {scaleLinear, scaleLog} from "d3-scale";

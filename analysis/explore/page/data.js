@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the page holds: JSON, and of each run one zlib stream of arrays in base64 (binary_arrays.hpp).
+// Reads the data of the page: JSON, and one zlib stream of arrays in base64 for each run (binary_arrays.hpp).
 
 const types = {
   u8: Uint8Array,
@@ -27,7 +27,7 @@ async function inflated(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** An array whose lowest bytes come first, then the next ones, and so on. */
+/** Decodes an array, whose lowest bytes come first, then the next ones, and so on. */
 function joined(bytes, {type, offset, length}) {
   const values = new types[type](length);
   const size = values.BYTES_PER_ELEMENT;
@@ -37,7 +37,7 @@ function joined(bytes, {type, offset, length}) {
   return values;
 }
 
-/** {name: typed array} of the arrays of number `k`, which `directory` lists. */
+/** The arrays of run `k`, {name: typed array}; `directory` lists them. */
 export async function readArrays(k, directory) {
   const element = document.getElementById(`arrays-${k}`);
   const bytes = await inflated(fromBase64(element.textContent));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers and elements for people. Text reaches the page as text, never as HTML.
+// Numbers as text, and elements of the page. Strings become text, never HTML.
 
 export const minus = (text) => text.replace(/-/g, "−");
 
 export function fixed(value, digits = 3) {
   return Number.isFinite(value) ? minus(value.toFixed(digits)) : "–";
 }
-/** As many digits as tell: 4 significant ones. */
+/** A number with at most `digits` significant digits; very large and small ones with an exponent. */
 export function short(value, digits = 4) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -14,7 +14,7 @@ export function short(value, digits = 4) {
   if (size >= 1e6 || size < 1e-3) return minus(value.toExponential(digits - 1).replace("e+", "e"));
   return minus(String(Number(value.toPrecision(digits))));
 }
-/** Numbers that stand beside each other: where two that differ would read alike, with up to three digits more. */
+/** Texts of numbers beside each other, with up to three digits more if different numbers would read alike. */
 export function apart(values, write, digits) {
   const written = [0, 1, 2, 3].map((more) => values.map((value) => write(value, digits + more)));
   const count = (all) => new Set(all).size;
@@ -26,14 +26,14 @@ export function interval(ends, digits = 3) {
 export function percent(value, digits = 0) {
   return Number.isFinite(value) ? `${fixed(100 * value, digits + (value < 0.1 ? 1 : 0))} %` : "–";
 }
-/** Prose whose decimal numbers have no more than 4 significant digits. */
+/** Rounds the decimal numbers in a sentence to 4 significant digits. */
 export function rounded(text) {
   return text.replace(/\d*\.\d+(e[-+]?\d+)?/g, (number) => {
     const digits = number.replace(/e.*|\./g, "").replace(/^0+/, "").length;
     return digits > 4 ? short(Number(number)) : number;
   });
 }
-/** A name with its unit as people write them: "T_S_y [m²/s²]". */
+/** Name and unit of a column for people: "T_S_y [m²/s²]". */
 export function withUnit(column) {
   return column.replace("[", " [").replace("^2", "²").replace("^2", "²").replace("^3", "³");
 }
@@ -47,12 +47,12 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-/** What a caption says of lines (or with `piece` "key" of discs): a piece of each in its look, and its name. */
+/** Key of a caption: [look, name] of lines (or of discs, with `piece` "key") as samples with their names. */
 export function keys(looks, piece = "stroke") {
   return looks.flatMap(([look, name]) => [element("span", {class: "named"}, element("i", {class: `${piece} ${look}`}), name), " "]);
 }
 
-/** A table of columns of [name, alignment] and rows of texts or elements. */
+/** A table: columns are [name, alignment], rows are lists of texts or elements. */
 export function table(columns, rows, caption) {
   const cell = (name, content, side) => element(name, side ? {class: side} : {}, content);
   return element(
@@ -71,12 +71,12 @@ export function table(columns, rows, caption) {
 export const byId = (id) => document.getElementById(id);
 
 let known = {};
-/** A colour of the sheet, "small". */
+/** A colour of the style sheet by name, "small". */
 export function colour(name) {
   known[name] ??= getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   return known[name];
 }
-/** After the sheet has changed. */
+/** To be called when the colours of the style sheet have changed. */
 export function forgetColours() {
   known = {};
 }

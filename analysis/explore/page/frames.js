@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frames of a run as player_data.hpp has coded them.
+// Decodes the frames of a run (player_data.hpp).
 
 import {extent} from "./d3.js";
 
@@ -13,7 +13,7 @@ export class Frames {
     this.times = player.times;
     this.grains = player.grains;
     this.count = player.times.length;
-    this.base = 255; // the species of what is not mobile
+    this.base = 255; // species of base and other fixed grains
     this.wallCodes = arrays.j.BYTES_PER_ELEMENT === 2 ? 65535 : 4294967295;
     this.meanForce = this.#meanForce();
     [this.low, this.high] = this.#extent();
@@ -40,15 +40,15 @@ export class Frames {
   y(frame, grain) {
     return this.#decoded("y", this.arrays.y[frame * this.grains + grain]);
   }
-  /** Of the disc that is seen: of spheres the cut. */
+  /** Radius of the disc that is drawn, m: of a grain, or of the cut through a sphere. */
   radius(frame, grain) {
     const cut = this.arrays.cut_radius;
     return cut ? this.#decoded("cut", cut[frame * this.grains + grain]) : this.arrays.radius[grain];
   }
 
   /**
-   * Contacts of a frame: grains i and j (j < 0: wall -j-1), where they are (that of j at the nearest
-   * periodic image, of a wall the contact point), and the force on i along the branch and across it.
+   * Contacts of a frame: grains i and j (j < 0: wall -j-1), their places in m (for j the nearest periodic
+   * image, for a wall the contact point), and the force on i in N, along the branch and across it.
    */
   contacts(frame) {
     const {contact_offset, i, j, along, across} = this.arrays;
@@ -74,13 +74,13 @@ export class Frames {
     return all;
   }
 
-  /** Half a step of the codes of forces over the mean force: by so much one may be off. */
+  /** Largest error of a force by its code, half a step, over the mean force. */
   get rounding() {
     const {along, across} = this.player.bounds;
     return Math.max(along.step, across.step) / 2 / this.meanForce;
   }
 
-  /** The walls that are known: [normal x, normal y, offset]. */
+  /** Walls known in a frame: [normal x, normal y, offset in m]. */
   walls(frame) {
     const n = this.player.walls;
     const known = [];
@@ -101,7 +101,7 @@ export class Frames {
     return [x - away * nx, y - away * ny];
   }
 
-  /** Of contacts that push, over all frames. */
+  /** Mean normal force, N, over all contacts that push and all frames. */
   #meanForce() {
     const {along} = this.arrays, {from, step} = this.player.bounds.along;
     let sum = 0, n = 0;
@@ -115,7 +115,7 @@ export class Frames {
     return n ? sum / n : 1;
   }
 
-  /** Corners of what is ever seen: [[x, y], [x, y]] in m. */
+  /** Corners of the region that all frames fill: [[x, y], [x, y]] in m. */
   #extent() {
     const {bounds, length_x, periodic_x} = this.player;
     const margin = extent(this.arrays.radius)[1] ?? 0;

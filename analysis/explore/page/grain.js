@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A grain that was chosen: its contacts close up, and what each rule gives it of those with the other
-// species.
+// Panel of the chosen grain: its contacts, enlarged, and its part of its mixed contacts by each rule.
 
 import {byId, element, fixed, percent, short, table} from "./format.js";
 import {parseRule, ruleName} from "./partition.js";
@@ -8,8 +7,8 @@ import {shareOfContact} from "./player.js";
 import {set, state} from "./state.js";
 
 /**
- * What there is to know about the contacts of a grain in a frame. Of spheres these are the contacts with
- * others that are cut by the plane, and forces are those in it.
+ * The contacts of a grain in the present frame. For spheres: contacts with other grains that the plane
+ * cuts, and the forces' parts in the plane.
  */
 export function contactsOf(player, grain) {
   const contacts = player.contacts();
@@ -45,7 +44,7 @@ export function contactsOf(player, grain) {
   return own;
 }
 
-/** The grain's part of the stress of its mixed contacts under a rule; NaN where it is nobody's. */
+/** The grain's part of the stress of its mixed contacts under a rule, N m; NaN for the rule drop. */
 export function partOf(contacts, rule) {
   let part = 0;
   for (const contact of contacts.filter(({mixed}) => mixed)) {
@@ -160,7 +159,7 @@ export class GrainPanel {
       return [k === all.length - 1 ? `now, ${ruleName(rule)}` : ruleName(rule), short(part, 3), percent(part / whole)];
     });
     const words = !flat
-      ? "The plane shows some of its contacts; what rules give it of all of them is not in the page."
+      ? "The plane shows only some of its contacts, so that its parts by rule are not known here."
       : mixed.length
       ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species ${mixed.length > 1 ? "bear" : "bears"} Σ fy ℓy = ${short(whole, 3)} N m. By each rule it gets`
       : "It has no contact with the other species: no rule gives or takes.";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys; those that a control understands by itself are left to it.
+// Keyboard shortcuts. A control keeps the keys that it uses itself.
 
 import {byId} from "./format.js";
 import {isShare, parseRule, shareOf} from "./partition.js";

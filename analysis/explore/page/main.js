@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads what the page holds, makes its parts, and tells them what the reader has chosen.
+// Reads the data of the page, makes its parts, and updates them when the reader chooses something.
 
 import {boxes, keepAddress, restore} from "./address.js";
 import {Compare} from "./compare.js";
@@ -28,7 +28,7 @@ function nameThePage() {
   byId("made-by").textContent = `Made by ${content.program}; it loads nothing from anywhere.`;
 }
 
-/** Fits get their arrays. The last one is of all runs together, where there are several. */
+/** Reads the arrays of all runs and, if there are several, of all together; fits get theirs, too. */
 async function readAll() {
   const arrays = await Promise.all(all.map((one, k) => readArrays(k, one.arrays)));
   all.forEach((one, k) => {
@@ -45,7 +45,7 @@ function showTab(name) {
   }
   set({tab: name});
   window.scrollTo(0, 0);
-  window.dispatchEvent(new Event("resize")); // what has changed meanwhile is drawn
+  window.dispatchEvent(new Event("resize")); // draws the tab, which may have changed while hidden
 }
 
 function listenToTabs() {
@@ -79,17 +79,17 @@ function describeColours() {
       .concat([["base", "base", 255]])
       .filter(([, , k]) => present.has(k));
   });
-  // Runs may name their species differently; a name is told once, the base last.
+  // Runs may name their species differently; each name appears once, the base last.
   const names = new Map(looks.map(([name, look]) => [`${look} ${name}`, [name, look]]));
   const inOrder = [...names.values()].sort(([, a], [, b]) => (a === "base") - (b === "base"));
   byId("legend").replaceChildren(
     ...keys(inOrder.map(([name, look]) => [look, name]), "key"),
-    "– lines are contacts, their width the force; each counts to the species whose colour it has.",
+    "– lines are contacts, as wide as their force is strong; a line counts to the species whose colour it has.",
     runs.some((run) => run.dimension === 3) ? " Spheres are cut by the plane half-way across." : "",
   );
 }
 
-/** What heights are told in: the runs' d_S, or metres where they differ; in annuli y is a radius. */
+/** Unit and name of heights in plots: d_S of the runs, or metres if it differs; y is a radius if bins are annuli. */
 function heightOf(some) {
   const sizes = some.map((run) => run.small_diameter);
   const same = Math.max(...sizes) < 1.001 * Math.min(...sizes);
@@ -97,7 +97,7 @@ function heightOf(some) {
   return same ? {unit: sizes[0], name: `${letter}/d_S`} : {unit: 1, name: `${letter} (m)`};
 }
 
-/** All that is drawn, with the players of all runs. */
+/** The tab "explore": players of all runs, plots and controls. */
 class Page {
   constructor() {
     this.fits = all.map((one) => one.fit ?? null);
@@ -126,7 +126,7 @@ class Page {
   get run() {
     return runs[state.run] ?? null;
   }
-  /** A run that has nothing to fit leaves the plots to the one before. */
+  /** State after a click on run k: plots stay with the run before if this one has no fit and another has. */
   chosen(k) {
     return this.fits[k] || !this.fits.some(Boolean) ? {run: k} : {};
   }
@@ -153,7 +153,7 @@ class Page {
     if (this.share) return;
     for (const card of document.querySelectorAll("#explore .card:not(.flow):not(.heart)")) card.hidden = true;
     byId("explore").classList.add("flow-only");
-    byId("heart").replaceChildren(element("h2", {}, "No B of this run"), element("p", {}, `Because: ${runs[0].why_no_fit}.`));
+    byId("heart").replaceChildren(element("h2", {}, "No B for this run"), element("p", {}, `Because: ${runs[0].why_no_fit}.`));
   }
 
   layout() {
@@ -251,7 +251,7 @@ async function start() {
   restore(page);
   flush();
   keepAddress(page);
-  // For the console, and for tests: fit(0, "uniform:0.65") is what the page shows of the first run.
+  // For the console and for tests: fit(0, "uniform:0.65") gives the numbers shown for the first run.
   window.grseg = {
     content,
     state,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The algebra of grseg-fit: stresses under a rule, and B of them (analysis/stress/partial_stress.cpp,
+// The algebra of grseg-fit: stresses under a rule, and B (analysis/stress/partial_stress.cpp,
 // analysis/fit/estimators.cpp). Stress under uniform:p is linear in p:
 //
-//   sigma^L(p) = (1 - p) sigma^L(0) + p sigma^L(1),  of two species sigma^L(0) = A_LL/V, sigma^L(1) = (A_LL + M)/V,
+//   sigma^L(p) = (1 - p) sigma^L(0) + p sigma^L(1),  for two species sigma^L(0) = A_LL/V, sigma^L(1) = (A_LL + M)/V,
 //
-// and that of small grains likewise; `size` and `contact-point` have sums of their own.
+// and sigma^S likewise. The rules size and contact-point have their own sums.
 
-/** A rule as typed, "size", "uniform:0.65": {kind, value}; p and Q within what the page knows of. */
+/** Reads a rule, "size" or "uniform:0.65": {kind, value}; p is limited to 0 to 1, Q to 0 to 4. */
 export function parseRule(text) {
   const [kind, number] = text.split(":");
   return kind === "power" || kind === "uniform" ? numberedRule(kind, Number(number)) : {kind, value: NaN};
@@ -18,7 +18,7 @@ export function ruleName({kind, value}) {
   return Number.isNaN(value) || value === undefined ? kind : `${kind}:${Number(value.toPrecision(12))}`;
 }
 
-/** The same as grseg-fit takes it: without sums by power:Q that of nominal radii. */
+/** The rule for grseg-fit that gives the B of the page: without sums by power:Q, the share of nominal radii. */
 export function commandRule(fit, rule) {
   const nominal = rule.kind === "power" && !hasPowers(fit);
   return nominal ? {kind: "uniform", value: powerShare(fit.size_ratio, rule.value)} : rule;
@@ -29,7 +29,7 @@ export function powerShare(ratio, Q) {
   return 1 / (1 + ratio ** -Q);
 }
 
-/** What barycentric interpolation in Chebyshev's points (of the second kind) gives to each at Q. */
+/** Weight of each node in barycentric interpolation at Q; nodes are Chebyshev's points of the second kind. */
 function weightsAt(nodes, Q) {
   const weights = nodes.map((node, k) => {
     const end = k === 0 || k === nodes.length - 1 ? 0.5 : 1;
@@ -41,7 +41,7 @@ function weightsAt(nodes, Q) {
   return weights.map((weight) => weight / sum);
 }
 
-/** Whether Q is that of the grains' own radii, rather than of the nominal ones. */
+/** True if the page has sums by power:Q with the grains' own radii; otherwise nominal radii are taken. */
 export function hasPowers(fit) {
   return fit.power_nodes.length > 0;
 }
@@ -61,7 +61,7 @@ function ofPower(fit, get, Q) {
   return {small, large, total};
 }
 
-/** {small, large, total}: stresses of the points of the fit, or with `prefix` "layer_" of the layers' means. */
+/** Stresses under a rule, {small, large, total}: at the points of the fit, or, with `prefix` "layer_", means by layer. */
 export function stressOf(fit, rule, prefix = "") {
   const get = (name) => fit.arrays[prefix + name];
   const uniform = (p) => {
@@ -86,7 +86,7 @@ export function stressOf(fit, rule, prefix = "") {
   }
 }
 
-/** {B, points, weight} as grseg-fit has them; `which`: the numbers of the points, if not all. */
+/** {B, points, weight} as in grseg-fit; `which`: numbers of the points to take, null for all. */
 export function sumsOf(fit, stress, which = null) {
   const {phi_large, frames} = fit.arrays;
   const {large: larges, total: totals} = stress;
@@ -103,7 +103,7 @@ export function sumsOf(fit, stress, which = null) {
   return {B: excess / weight, points, weight};
 }
 
-/** Of two species: B of contacts that ignore grain size, of nominal radii, at p (partition_rule.cpp). */
+/** B of contacts that ignore grain size, at the share p, for two species of nominal radii (neutral_contacts.hpp). */
 export function neutralSums(fit, p) {
   if (!fit.two) return NaN;
   const {phi_large, frames} = fit.arrays;
@@ -117,15 +117,15 @@ export function neutralSums(fit, p) {
   return above / below;
 }
 
-/** The same of a rule; B of `drop`, whose stresses do not add up to the whole, is not a number. */
+/** {B, points, weight} of a rule; B is NaN for drop, whose stresses do not add up to the whole. */
 export function fitOf(fit, rule) {
   const all = sumsOf(fit, stressOf(fit, rule));
   return rule.kind === "drop" ? {...all, B: NaN} : all;
 }
 
 /**
- * The share of all mixed contacts that gives the same B (rule_fit.hpp). Of more than two species it is not in the
- * sums of the pair, which hold contacts with the others: NaN but where the rule itself says it.
+ * The share p of all mixed contacts that gives the B of the rule (line_over_share.hpp). With more than two species
+ * the sums also hold contacts with the others: NaN, unless the rule itself names p.
  */
 export function shareOf(fit, rule) {
   if (rule.kind === "uniform") return rule.value;
@@ -137,16 +137,16 @@ export function shareOf(fit, rule) {
   return (fitOf(fit, rule).B - at(0)) / (at(1) - at(0));
 }
 
-/** [p*, low, high] at which B is 0, as grseg-fit says; NaN of more than two species. */
+/** The share at which B is 0, with its interval, from grseg-fit: [p*, low, high]; NaN with more than two species. */
 export function zeroOf(fit) {
   return (fit.scan.p_zero ?? [null, null, null]).map((value) => value ?? NaN);
 }
-/** Whether a share can be p*. */
+/** True for numbers from 0 to 1. */
 export function isShare(p) {
   return p >= 0 && p <= 1;
 }
 
-/** [low, high] of the band at the share p, between the shares at which grseg-fit made it. */
+/** Ends of the band at the share p, [low, high], interpolated between the shares of grseg-fit. */
 export function bandAt(fit, p) {
   const {p: grid, B: rows} = fit.scan;
   if (!(p >= grid[0] && p <= grid[grid.length - 1])) return [NaN, NaN];
@@ -159,16 +159,16 @@ export function bandAt(fit, p) {
       : (1 - t) * rows[k][side] + t * rows[k + 1][side]);
 }
 
-/** The row of a rule that grseg-fit fitted for all runs together, if it did. */
+/** The result of grseg-fit for a rule and all runs of the fit, if it is in the page. */
 export function fittedRule(fit, rule) {
   const name = ruleName(rule);
   return fit.rules.filter((row) => row.name === name).pop();
 }
 
-/** {interval: [low, high], of: what it is of} of a rule: its own, or that of the band at its share. */
+/** Interval of B of a rule, {interval: [low, high], of}: its own, with `of` "", or taken from the band at its share. */
 export function intervalOf(fit, rule) {
   const own = fittedRule(fit, rule);
   if (own) return {interval: own.B.slice(1).map((x) => x ?? NaN), of: ""};
   const p = shareOf(fit, rule);
-  return {interval: bandAt(fit, p), of: rule.kind === "uniform" ? "" : `that of uniform:${Number(p.toPrecision(3))}`};
+  return {interval: bandAt(fit, p), of: rule.kind === "uniform" ? "" : `taken from uniform:${Number(p.toPrecision(3))}`};
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whose the pressure is, as one bar: pairs of large grains, the two parts of mixed contacts, pairs of small
-// ones.
+// Bar of the pressure and its bearers: pairs of large grains, the two parts of mixed contacts, pairs of small
+// grains.
 
 import {apart, byId, element, percent} from "./format.js";
 import {state} from "./state.js";
 
-/** Means over layers and frames of each part's share of the pressure there: what B by sums is made of. */
+/** Each part's share of the pressure of its layer, as a mean over layers and frames; B is made of these. */
 function meanParts(fit, stress) {
   const {none_large, all_large, all_small, phi_large, frames} = fit.arrays;
   const mean = {small: 0, large: 0, mixed: 0, given: 0, phi: 0};
@@ -32,7 +32,7 @@ export class Parts {
     byId("parts").append(element("div", {class: "bar-of-parts"}, ...this.spans, this.phi), this.words);
   }
 
-  /** Of two species: with more a bar would have to have more parts. */
+  /** Shows the bar for two species, and hides it for more. */
   update(fit, stress) {
     byId("parts").hidden = !fit.two;
     if (!fit.two) return;
@@ -56,7 +56,7 @@ export class Parts {
     this.words.replaceChildren(
       "Large grains carry ",
       element("b", {class: "large"}, carried),
-      ` of the pressure, in the mean over layers; the upright line is their part of the grains, ${present}. Hatched: mixed contacts.`,
+      ` of the pressure, as a mean over layers; the upright line is their part of the grains, ${present}. Hatched: mixed contacts.`,
     );
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws a frame on a canvas: grains, and every contact as a line whose width is its force. What of the
-// line counts to the small grains has their colour, what counts to the large ones theirs.
+// Draws a frame on a canvas: grains, and every contact as a line whose width is its force. Each species' part
+// of the line has the colour of that species.
 
 import {colour, element} from "./format.js";
 import {powerShare} from "./partition.js";
@@ -9,7 +9,7 @@ import {state} from "./state.js";
 const widths = 10; // classes of line width
 const thickest = 1.1; // of a line, over the radius of a small grain
 
-/** Share of the larger grain in a mixed contact of these radii; NaN: it is nobody's. */
+/** Share of the larger grain in a mixed contact of these radii; NaN for the rule drop. */
 export function shareOfContact(rule, large, small) {
   switch (rule.kind) {
     case "uniform":
@@ -20,7 +20,7 @@ export function shareOfContact(rule, large, small) {
       return powerShare(large / small, rule.value);
     case "drop":
       return NaN;
-    default: // by size; where grains just touch the contact point is there, too
+    default: // size, and contact-point, which agrees with it for grains that just touch
       return large / (large + small);
   }
 }
@@ -31,7 +31,7 @@ export class Player {
     this.frames = frames;
     this.canvas = element("canvas", {tabindex: "0", role: "img"});
     this.context = this.canvas.getContext("2d");
-    this.still = document.createElement("canvas"); // what the rule does not change
+    this.still = document.createElement("canvas"); // of everything that the rule does not change
     this.pair = run.fit ? run.fit.numbers_of_pair : [0, 1];
     this.base = run.fit ? run.fit.settings.base : "contact-point";
     this.hasLayers = run.fit && run.bins === "layers"; // annuli are not drawn
@@ -48,7 +48,7 @@ export class Player {
     return this.cached.contacts;
   }
 
-  /** Takes the width of its place and the height that the flow asks for, up to `tallest`. */
+  /** Sets the size: `width`, and the height that follows for the flow, at most `tallest`; px. */
   resize(width, tallest) {
     const [[x0, y0], [x1, y1]] = [this.frames.low, this.frames.high];
     this.scale = Math.min(width / (x1 - x0), tallest / (y1 - y0));
@@ -95,7 +95,7 @@ export class Player {
     c.clip();
   }
 
-  /** Grains, walls and layers, if they are not those that were drawn last. */
+  /** Draws grains, walls and layers, unless nothing has changed since they were drawn last. */
   #drawStill() {
     const {showGrains, showForces, showLayers, layer} = state;
     const wanted = [this.frame, showGrains, showForces, showLayers, layer, this.colours.ink].join(" ");
@@ -136,7 +136,7 @@ export class Player {
       c.globalAlpha = one === frames.base ? 0.8 : state.showForces ? 0.24 : 0.85;
       for (let g = 0; g < frames.grains; ++g) {
         if (species[g] !== one || !frames.isShown(frame, g)) continue;
-        // Each by itself: a path of thousands of discs takes a browser longer to fill.
+        // One path for each disc: a path of thousands of discs takes a browser longer to fill.
         this.#images(g, (x, y, r) => {
           c.beginPath();
           c.arc(x, y, Math.max(r - 0.25, 0.3), 0, 2 * Math.PI);
@@ -192,7 +192,7 @@ export class Player {
     return Math.max(0.5, (((k + 0.6) / widths) * thickest * d * this.scale) / 2);
   }
 
-  /** Where the line of contact k changes colour, from i (0) to j (1), and the species at either end. */
+  /** Place at which the line of contact k changes colour, from i (0) to j (1), and the species at both ends. */
   cut(contacts, k) {
     const {species, radius} = this.frames.arrays;
     const i = contacts.i[k], j = contacts.j[k];
@@ -204,7 +204,7 @@ export class Player {
     return {si, sj, at: iLarger ? share : 1 - share, mixed: true};
   }
 
-  /** What of a contact with the base counts to the grain; a wall's line ends at the contact point. */
+  /** The grain's part of a contact with the base; the line of a wall ends at the contact point. */
   #partAtBase(i, j) {
     const {radius} = this.frames.arrays;
     if (this.base === "none") return 0;
@@ -265,7 +265,7 @@ export class Player {
     });
   }
 
-  /** An arrow in the corner. */
+  /** Draws an arrow in the corner. */
   #drawGravity() {
     const {context: c} = this;
     const [gx, gy] = this.frames.player.gravity[this.frame];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The second tab: what was run, how accurately, with which result; made to be printed.
+// The tab "report": settings, accuracy and results of the runs; made to be printed.
 
 import {Chart, upright} from "./chart.js";
 import {area, extent, line, scaleLinear} from "./d3.js";
@@ -9,8 +9,8 @@ import {isShare, stressOf, zeroOf} from "./partition.js";
 const charts = [];
 
 /**
- * A figure with a chart, which is drawn whenever its width is known: `domains(x, y)` sets those of the scales, or tells by
- * false that there is nothing to draw; `paths(x, y, chart)` are [look, outline]. `lines`: [look, name] of the caption.
+ * A figure with a chart, which is drawn whenever its width is known: `domains(x, y)` sets the domains of the scales, or
+ * returns false if there is nothing to draw; `paths(x, y, chart)` are [look, outline]. `lines`: [look, name] of the caption.
  */
 function figure(caption, labels, domains, paths, lines = []) {
   const host = element("div", {class: "plot"});
@@ -26,7 +26,7 @@ function figure(caption, labels, domains, paths, lines = []) {
   return made;
 }
 
-/** B over the share p with its band. */
+/** Figure of B over the share p with its band. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
   const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
@@ -43,7 +43,7 @@ function shareFigure(fit) {
   });
 }
 
-/** psi_L over phi_L, a point per layer and window; in one path, since there may be thousands. */
+/** Figure of psi_L over phi_L with a point per layer and window; all are one path, since there may be thousands. */
 function excessFigure(fit) {
   const caption = "Large grains’ share of the pressure, by size, over their share of the grains: a point for each layer and window";
   const {small, large} = stressOf(fit, {kind: "size", value: NaN});
@@ -56,7 +56,7 @@ function excessFigure(fit) {
   ], [["neutral", "equal shares"]]);
 }
 
-/** Columns of a table by layer over the height. `lines`: [[column, look, name], ...] */
+/** Figure of columns of a table by layer, over height. `lines`: [[column, look, name], ...] */
 function profileFigure(layers, name, lines, caption, label, smallDiameter) {
   const {columns, rows} = layers.tables.find((one) => one.name === name) ?? {columns: [], rows: []};
   const places = lines.map(([column, look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), look]);
@@ -89,7 +89,7 @@ function profileFigures(run) {
   ].filter(Boolean);
 }
 
-/** What a program reads again. */
+/** A button that saves a table as tab-separated text. */
 function saveButton(name, {columns, rows}) {
   const button = element("button", {class: "quiet save"}, "Save as TSV");
   button.addEventListener("click", () => {
@@ -102,7 +102,7 @@ function saveButton(name, {columns, rows}) {
   return button;
 }
 
-/** A table by layer: the columns to read first, or all. */
+/** A table by layer, with the columns to read first or, by a checkbox, all. */
 function layerTable(one, smallDiameter) {
   const host = element("div", {class: "scroll"});
   const put = (all) => {
@@ -161,7 +161,7 @@ function fitSection(fit, heading) {
   );
 }
 
-/** Heights of the centres of both species over time, and the numbers of grseg-segregation. */
+/** Section with the heights of both species' centres over time, and the numbers of grseg-segregation. */
 function segregationSection(run) {
   const {segregation} = run;
   if (!segregation) return null;
@@ -196,7 +196,7 @@ function segregationSection(run) {
 
 const verdicts = {passed: "✓ passed", failed: "✗ failed", undecided: "? undecided", skipped: "– skipped"};
 
-/** In what a check measures; most measure a ratio. */
+/** Unit of a check's numbers; most are ratios, "–". */
 function unitOfCheck(quantity) {
   if (/^(overlap|open_gap)/.test(quantity)) return "dS";
   if (quantity.startsWith("approach")) return "dS per step";
@@ -234,7 +234,7 @@ function pairs(entries) {
   return element("dl", {class: "facts"}, ...entries.flatMap(([key, value]) => [element("dt", {}, key), element("dd", {}, value)]));
 }
 
-/** "m s-1" as "m/s"; of ratios and numbers "–". */
+/** Unit of an observable for people: "m s-1" becomes "m/s"; "–" for ratios and numbers. */
 function unitOf(text) {
   return text.replace(/^1?$/, "–").replace(/ (\w+)-1$/, "/$1");
 }
@@ -330,7 +330,7 @@ export function writeReport(content, together) {
   );
 }
 
-/** On paper nothing can be unfolded. */
+/** Unfolds all details for printing. */
 export function listenToPrinting() {
   let folded = [];
   window.addEventListener("beforeprint", () => {
@@ -343,7 +343,7 @@ export function listenToPrinting() {
   });
 }
 
-/** When widths are known or have changed. */
+/** Draws all charts; to be called when widths are known or have changed. */
 export function layoutReport() {
   for (const draw of charts) draw();
 }

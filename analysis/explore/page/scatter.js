@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sigma^S/sigma^L over phi_S/phi_L, a point per layer and window; points on a canvas under the axes, as
-// there may be thousands.
+// Plot of sigma^S/sigma^L over phi_S/phi_L, with a point per layer and window. There may be thousands of
+// points, so that they are on a canvas under the axes.
 
 import {Chart} from "./chart.js";
 import {extent, line, scaleLog} from "./d3.js";
@@ -33,7 +33,7 @@ export class Scatter {
     const fit = this.fitOfRun();
     const {phi_large} = fit.arrays;
     this.ratio = phi_large.map((phi) => (1 - phi) / phi);
-    // The axes hold what any share between 0.4 and 0.8 makes of the points.
+    // The axes hold the points of all shares from 0.4 to 0.8.
     let low = Infinity, high = 0;
     for (const p of [0.4, 0.8]) {
       const {small, large} = stressOf(fit, {kind: "uniform", value: p});
@@ -59,7 +59,7 @@ export class Scatter {
     this.canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  /** Along the curve on which B is the same everywhere. */
+  /** Points of the curve on which B is the same everywhere. */
   #curve(found) {
     const {x} = this.chart.scales;
     const [from, to] = x.domain();
@@ -115,7 +115,7 @@ export class Scatter {
     );
   }
 
-  /** Where the window begins that holds the frame that is shown. */
+  /** Begin of the window that holds the present frame, s; null if there is none. */
   windowNow() {
     const window = this.windowTimes().find(([begin, end]) => state.time >= begin && state.time < end);
     return window ? window[0] : null;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The heart: the share p of a mixed contact that goes to its large grain, and what it makes of B.
+// The card of the share p of a mixed contact that goes to its large grain, and of the B that follows.
 
 import {Chart, margin, upright} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
@@ -11,13 +11,13 @@ import {set, state} from "./state.js";
 
 const uniform = (p) => numberedRule("uniform", p);
 
-/** Q at which two grains of nominal radii are shared by p; beyond the slider its end. */
+/** Q for which power:Q gives the share p to grains of nominal radii; limited to the slider, 0 to 4. */
 function powerOf(fit, p) {
   const Q = Math.log(p / (1 - p)) / Math.log(fit.size_ratio);
   return Math.min(4, Math.max(0, Number.isNaN(Q) ? 1 : Q));
 }
 
-/** The names of the codes alone: "MercuryDPM; YADE, PFC". */
+/** Names of the codes that use a rule: "MercuryDPM; YADE, PFC". */
 function shortUse(text) {
   return text
     .replace(/ compute stress\/atom.*| coarse graining| stress per body|^grseg, |^sums over | \(.*\)/g, "")
@@ -25,7 +25,7 @@ function shortUse(text) {
 }
 
 export class Share {
-  /** `runsOfFit()`: those that the plots are of. */
+  /** `runsOfFit()`: runs that the plots show. */
   constructor(content, fitOfRun, runsOfFit) {
     this.known = content.rules;
     this.fitOfRun = fitOfRun;
@@ -71,7 +71,7 @@ export class Share {
       byId(id).addEventListener(id.endsWith("number") ? "change" : "input", ({target: {valueAsNumber: value}}) => {
         if (!Number.isNaN(value)) set({rule: numberedRule(kind, value)});
       });
-    // While the slider is out of sight, there is another one at the foot of the window.
+    // Another slider, at the foot of the window, replaces the first one while that is out of sight.
     new IntersectionObserver(([{isIntersecting: inSight}]) => {
       byId("dock").hidden = inSight;
     }).observe(byId("p-row"));
@@ -88,7 +88,7 @@ export class Share {
     svg.addEventListener("pointermove", drag);
   }
 
-  /** What depends on the run, not on the rule. */
+  /** Draws everything that depends on the run, not on the rule. */
   layout(others) {
     const fit = this.fitOfRun();
     const {chart} = this;
@@ -123,12 +123,12 @@ export class Share {
       ["thin", "the other runs", others.length > 0],
     ];
     byId("share-note").replaceChildren(...keys(drawn.filter(([, , is]) => is)));
-    // The thumb stands under the point of the plot.
+    // These widths put the thumb of the slider under the point of the plot.
     byId("p-row").style.paddingLeft = `${chart.inner.left - 9}px`;
     byId("p-row").style.paddingRight = `${margin.right - 9}px`;
     byId("q-note").textContent = hasPowers(fit)
       ? ""
-      : "Q here shares by nominal radii, p = r^Q/(1 + r^Q); grseg-fit --partition power:Q takes those of each grain.";
+      : "Here Q shares by nominal radii, p = r^Q/(1 + r^Q); grseg-fit --partition power:Q takes the radii of each grain.";
   }
 
   #drawZero(fit) {
@@ -154,7 +154,7 @@ export class Share {
       .text(`p* = ${fixed(p)}`);
   }
 
-  /** Marks of published codes, their names above the curve, where two would meet one below the other. */
+  /** Draws marks of published codes, with their names above the curve; of two that would overlap one stands higher. */
   #drawCodes(fit) {
     const {x, y} = this.chart.scales;
     const {left} = this.chart.inner;
@@ -168,7 +168,7 @@ export class Share {
       .sort((a, b) => b.p - a.p);
     this.codes.selectAll("*").remove();
     marks.forEach(({name, use, p, B}, k) => {
-      // Two that share alike would stand one upon the other.
+      // Names of codes with nearly equal shares would overlap.
       const near = k > 0 && x(marks[k - 1].p) - x(p) < 12;
       const to = {x: Math.max(left + 60, x(p) - 18), y: y(B) - (near ? 36 : 18)};
       this.codes.append("line").attr("x1", x(p)).attr("y1", y(B)).attr("x2", to.x + 2).attr("y2", to.y - 3);
@@ -179,7 +179,7 @@ export class Share {
     });
   }
 
-  /** What follows from the rule. */
+  /** Draws everything that depends on the rule. */
   update(stress, found) {
     const fit = this.fitOfRun();
     const {rule} = state;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the reader has chosen. A change tells all who listen once, before the browser paints next.
+// The state of the page: the reader's choices. Listeners are called once for all changes between two paints.
 
 export const state = {
   tab: "explore",
   rule: {kind: "size", value: NaN},
-  run: 0, // that plots are of; the number of runs: all together
+  run: 0, // of the plots; the number of runs stands for all together
   time: 0, // s
-  player: 0, // the run of which a grain was chosen
-  grain: -1, // of it
-  layer: null, // [bottom, top] in m, of the pointer
+  player: 0, // run of the chosen grain
+  grain: -1, // the chosen grain, -1: none
+  layer: null, // [bottom, top] in m, under the pointer
   showGrains: true,
   showForces: true,
   onlyMixed: false,
@@ -23,7 +23,7 @@ export function listen(listener) {
   listeners.push(listener);
 }
 
-/** Tells them now. */
+/** Calls the listeners now. */
 export function flush() {
   if (!changed) return;
   const names = changed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays all runs by one clock.
+// Plays all runs with one clock.
 
 import {byId, fixed} from "./format.js";
 import {set, state} from "./state.js";

@@ -48,17 +48,17 @@ TEST(TablesOfRuns, TablesOfOtherRunsProgramsAndSeveralRunsAreRefused)
   };
   EXPECT_EQ(
       refused(table_of("c.tsv", "grseg-stress 0.2.0", {"xxh3 00000000000000cc"})),
-      "c.tsv: is of the run with the digest xxh3 00000000000000cc, and neither that nor its bed "
-      "is that of a run given; name that run, make the table anew, or leave it out: sums are then "
-      "made of the run");
-  EXPECT_EQ(
-      refused(table_of("k.tsv", "grseg-kinetic 0.2.0", {digests[0]})),
-      "k.tsv: is a table of grseg-kinetic 0.2.0; beside runs only tables of grseg-stress are used");
+      "c.tsv: is of the run with the digest xxh3 00000000000000cc, and no run given has this digest "
+      "or the same bed; name that run, make the table again, or leave it out: sums are then made "
+      "from the run");
+  EXPECT_EQ(refused(table_of("k.tsv", "grseg-kinetic 0.2.0", {digests[0]})),
+            "k.tsv: is a table of grseg-kinetic 0.2.0; only tables of grseg-stress can be given "
+            "beside runs");
   EXPECT_EQ(refused(table_of("m.tsv", "grseg-stress 0.2.0", digests)),
             "m.tsv: is made of 2 runs; give tables of one run each");
   EXPECT_EQ(
       refused(Table{}),
-      "table: is not a table made by grseg; beside runs only tables of grseg-stress are used");
+      "table: is not a table made by grseg; only tables of grseg-stress can be given beside runs");
 }
 
 TEST(TablesOfRuns, TwoTablesOfOneRunAreRefused)

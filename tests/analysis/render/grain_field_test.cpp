@@ -149,7 +149,7 @@ TEST_F(GrainFields, WhatIsNoFieldIsRefusedWithAWord)
 {
   EXPECT_EQ(complaint("sped").substr(0, 24), "unknown --color 'sped', ");
   EXPECT_EQ(complaint("speed:3"), "--color speed:3: nothing follows speed");
-  EXPECT_EQ(complaint("rise"), "--color rise: say since when, as in rise:0");
+  EXPECT_EQ(complaint("rise"), "--color rise: give the time to compare with, as in rise:0");
   EXPECT_EQ(complaint("rise:x"), "--color rise:x: 'x' is not a time");
   EXPECT_EQ(complaint("velocity:z"), "--color velocity:z: the components of this run are x and y");
   EXPECT_EQ(complaint("displacement:7"),
