@@ -14,7 +14,7 @@ foreach(file main.js style.css)
       --outfile=${WORK}/${file})
 endforeach()
 
-# 'sha256-...' of what stands between the tags of an element.
+# Digest 'sha256-...' of the text between the tags of an element.
 function(digest file result)
   file(SHA256 ${file} hex)
   string(TOUPPER ${hex} hex)
@@ -29,7 +29,7 @@ digest(${WORK}/style.css style_digest)
 file(READ ${SOURCE}/index.html page)
 file(READ ${WORK}/main.js script)
 file(READ ${WORK}/style.css style)
-# What is put in last is not searched for marks of others.
+# Style and program are put in last, so that their text is not searched for marks.
 string(REPLACE "{{style_digest}}" "${style_digest}" page "${page}")
 string(REPLACE "{{script_digest}}" "${script_digest}" page "${page}")
 string(REPLACE "{{style}}" "${style}" page "${page}")
