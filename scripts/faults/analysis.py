@@ -489,7 +489,6 @@ FAULTS = [
 ARGUED = {"component: the trace instead of its part per dimension"}
 LIBRARY = "grseg_analysis"
 FOLDER = "analysis"  # of the library
-OUTPUT = "docs/studies/fault-injection.md"
 # Rooms whose tests are run for a fault in a room: its own, then the rooms that build on it.
 ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],
          "statistics": ["statistics", "segregation", "fit"], "stress": ["stress", "micro", "fit", "check"],

@@ -103,7 +103,7 @@ export function sumsOf(fit, stress, which = null) {
   return {B: excess / weight, points, weight};
 }
 
-/** B of contacts that ignore grain size, at the share p, for two species of nominal radii (neutral_contacts.hpp). */
+/** B of contacts that ignore grain size, at the share p, for two species of nominal radii (partition_rule.cpp). */
 export function neutralSums(fit, p) {
   if (!fit.two) return NaN;
   const {phi_large, frames} = fit.arrays;
@@ -124,7 +124,7 @@ export function fitOf(fit, rule) {
 }
 
 /**
- * The share p of all mixed contacts that gives the B of the rule (line_over_share.hpp). With more than two species
+ * The share p of all mixed contacts that gives the B of the rule (rule_fit.hpp). With more than two species
  * the sums also hold contacts with the others: NaN, unless the rule itself names p.
  */
 export function shareOf(fit, rule) {
