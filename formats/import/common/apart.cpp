@@ -23,12 +23,12 @@
 namespace grseg {
 namespace {
 
-// What a message may take: processor seconds, and bytes of memory beside those of the program. Right
-// files need a tenth of it.
+// Limits of the work for one message: processor seconds, and bytes of memory beside the memory of
+// the program. Sound files need a tenth of it.
 constexpr rlim_t patience = 1, bytes_per_second = 1 << 20;
 constexpr rlim_t memory = 128 << 20, memory_per_byte = 64;
 
-/// Whether all bytes were passed; `pass` is read or write.
+/// True where all bytes were passed; `pass` is read or write.
 template <class Pass, class Byte>
 bool pass_all(Pass pass, int end, Byte* bytes, std::size_t count)
 {
@@ -100,7 +100,7 @@ void limit_time(rlim_t file_size)
   _exit(exit_done);
 }
 
-/// Of a process that sent nothing more.
+/// The end of a process that sent nothing more, as the verb of a sentence.
 std::string how_it_ends(int status)
 {
   if (!WIFSIGNALED(status))
@@ -116,7 +116,7 @@ std::string how_it_ends(int status)
   throw ToolError(static_cast<ExitCode>(code), sentence);
 }
 
-/// What the archive says when it has been opened, and with each moment.
+/// One message of the process: sent when the archive has been opened, and with each moment.
 struct News {
   ArchiveFacts facts;
   std::vector<std::string> remarks;

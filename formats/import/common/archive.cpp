@@ -98,8 +98,8 @@ bool Matching::next(const Table& grains, const Table& contacts, const std::funct
   while (more_contacts && goes_on(contacts_alone_)) more_contacts = pass(contacts, contacts_alone_);
   if (!any_of_both_ && grains_alone_.count > 0 && contacts_alone_.count > 0)
     throw FormatError(fmt::format(
-        "no moment is in both tables: those of the grains begin with {:.10g}, those of the contacts "
-        "with {:.10g}; write both at the same moments",
+        "no moment is in both tables: the grains begin with {:.10g}, the contacts with {:.10g}; write "
+        "both at the same moments",
         fmt::join(grains_alone_.first, ", "), fmt::join(contacts_alone_.first, ", ")));
   return false;
 }

@@ -76,7 +76,7 @@ struct ArchiveGrains {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> type;  // the archive's own number of a species
   std::vector<std::string>
-      type_names;  // where it has words instead: that of type k is type_names[k]
+      type_names;  // where it has words instead: type k is called type_names[k]
   std::vector<double> radius, mass;
   std::vector<Vec3> position;                      // of the centre; may lie outside a periodic cell
   std::vector<std::array<std::int32_t, 3>> image;  // periods to add to `position`
@@ -89,7 +89,7 @@ struct ArchiveGrains {
   bool unwrapped = false;              // `position` counts the periods that grains have crossed
 
   std::size_t size() const { return id.size(); }
-  /// Whether the archive tells how often grains have crossed its periods.
+  /// True where the archive tells how often grains have crossed its periods.
   bool counts_periods() const { return unwrapped || !image.empty(); }
   /// The type as the archive writes it.
   std::string type_word(std::int32_t number) const
@@ -109,7 +109,7 @@ struct ArchiveContacts {
                                    // empty: no contact is one with a wall
   std::vector<Vec3> force;         // ON i FROM j
   std::vector<double> overlap;     // positive where the two overlap; NaN: from the branch
-  std::vector<double> distance;    // of the centres; where both are empty it is that of positions
+  std::vector<double> distance;    // of the centres; where both are empty it follows from positions
   std::vector<Vec3>
       branch;  // x_i - x_j, at a wall x_i - contact point; empty, or NaN for a contact
                // with a grain: from positions
@@ -179,7 +179,7 @@ class Matching {
   /// if `to_the_end`, for remarks(). FormatError where both have moments, but none in common.
   bool next(const Table& grains, const Table& contacts, const std::function<int()>& order,
             bool to_the_end = false);
-  /// What is left out, a sentence for each table; `unit` is "step" or "t =".
+  /// A sentence for each table with moments that are left out; `unit` is "step" or "t =".
   std::vector<std::string> remarks(const char* unit) const;
 
  private:
@@ -191,8 +191,8 @@ class Matching {
 void add_remark(std::vector<std::string>& remarks, const Unmatched& alone, const char* what,
                 const char* without, const char* unit);
 
-/// What an archive states once about its run. What it does not state stays empty and must come from
-/// the command line; nothing is guessed.
+/// Facts that an archive states once about its run. A fact that it does not state stays empty and
+/// must come from the command line; nothing is guessed.
 struct ArchiveFacts {
   std::optional<double> step;     // of the integration, in units of time
   std::optional<double> density;  // of the grains' matter, per area (discs) or volume (spheres)
@@ -200,11 +200,11 @@ struct ArchiveFacts {
   std::optional<bool> discs;         // false: spheres
   std::vector<std::string> walls;    // names of those whose contacts it has
   std::optional<std::string> units;  // the program's name for them: "si", "cgs", "lj"
-  /// The contact forces in the archive were evaluated with velocities half a step later than those
-  /// that moved the grains (imbalance.hpp).
+  /// The archive's contact forces were evaluated with velocities half a step later than the
+  /// velocities that moved the grains (imbalance.hpp).
   bool forces_are_late = false;
-  /// Every pair that overlaps has a row, as soft grains have. Contact dynamics may list only those
-  /// that bear a force.
+  /// Every pair that overlaps has a row, as soft grains have. Contact dynamics may list only the
+  /// pairs that bear a force.
   bool lists_all = true;
   /// Largest residual of a grain's balance that correct output of this program can have, relative
   /// to the largest force of the moment and after subtraction of late damping; and why (digits of
@@ -228,7 +228,7 @@ class Archive {
   /// Fills in the next moment that has both grains and contacts; false at the end.
   /// FormatError naming file, line and remedy where the archive is damaged.
   virtual bool next(ArchiveMoment& moment) = 0;
-  /// The same, but the contacts need not be read: faster where the format lets them be skipped.
+  /// Like `next`, but the contacts need not be read: faster where the format lets them be skipped.
   virtual bool next_grains(ArchiveMoment& moment) { return next(moment); }
 
   /// How the columns of the contacts are read, as --columns would give it; "" where the format
@@ -240,7 +240,7 @@ class Archive {
   {
     return std::nullopt;
   }
-  /// What has been left out so far, a sentence each: unmatched moments, rows.
+  /// Sentences about everything left out so far: unmatched moments, rows.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
 
@@ -252,7 +252,7 @@ struct TruncatedArchive : FormatError {
   bool goes_on = false;  // `next`, given the same moment, reads the one behind it
 };
 
-/// What the command line gives to a reader.
+/// Files and columns as the command line gives them to a reader.
 struct ArchiveFiles {
   std::vector<std::string> grains, contacts;  // may hold `*`; archive_files.hpp
   std::string restart;                        // with what the other files lack
@@ -267,10 +267,11 @@ struct ArchiveFiles {
 struct ArchiveFormat {
   const char* name;  // as --format gives it
   std::unique_ptr<Archive> (*open)(const ArchiveFiles&);
-  /// What a file holds that begins like this, if it looks like one of this format.
+  /// The role of a file with this beginning; FileRole::none where it does not look like this
+  /// format.
   FileRole (*role)(const FileStart&);
-  /// Whether it is of this program rather than of another one that writes such files, too; null where
-  /// there is none. Asked where --format does not say.
+  /// True for a file of this program rather than of another one that writes such files, too; null
+  /// where there is no other. Asked where --format does not say.
   bool (*is_of_program)(const FileStart&) = nullptr;
   /// Which of these options apply to it; the others are refused.
   bool takes_contacts = true, takes_columns = true, takes_restart = false, takes_map = false,

@@ -53,7 +53,7 @@ constexpr auto repack =
     "unpack it, or pack it by gzip, bzip2, xz or zstd, which are read as they are";
 constexpr auto to_tables = "write its grains and contacts as tables (--format csv)";
 constexpr auto to_dumps =
-    "it lacks what an import needs; write `dump custom` for grains and `dump local` for contacts";
+    "it has no contact forces, which an import needs; write `dump custom` for grains and `dump local` for contacts";
 constexpr auto in_pandas = "make a table of it, in Python by pandas and to_csv (--format csv)";
 constexpr auto from_restart =
     "read it there, and write `dump custom` for grains and `dump local` for contacts by `run 0`";
@@ -92,8 +92,8 @@ constexpr Kind kinds[] = {
     {"a spreadsheet of Excel", "save its sheets as tables (--format csv)", {"\xd0\xcf\x11\xe0"sv}},
     {"a netCDF file", to_dumps, {"CDF\x01"sv, "CDF\x02"sv, "CDF\x05"sv}},
     {"an HDF5 file",
-     "--format siconos reads those of Siconos; of others write grains and contacts as tables "
-     "(--format csv)",
+     "--format siconos reads files of Siconos; write grains and contacts of another program as "
+     "tables (--format csv)",
      {"\x89HDF\r\n\x1a\n"sv}},
     {"a VTK file", from_paraview, {"# vtk DataFile"sv, "<VTKFile"sv}},
     {"a YAML file", to_dumps, {"---\n"sv, "---\r\n"sv}},
@@ -181,7 +181,7 @@ Hdf5Start start_of_hdf5(const std::string& path)
   return start;
 }
 
-/// What an HDF5 file is that has these names in its root, as of other_kind().
+/// The sentence of other_kind() for an HDF5 file with these names in its root.
 std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
 {
   const auto has = [&](const char* name) {

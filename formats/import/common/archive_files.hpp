@@ -16,16 +16,16 @@ std::vector<std::string> archive_files(const std::vector<std::string>& names,
 /// `names` and the files that those with `*` stand for, whether they exist or not.
 std::vector<std::string> files_meant(const std::vector<std::string>& names);
 
-/// Whether a sorts before b where runs of digits are compared as numbers.
+/// True where a sorts before b, runs of digits being compared as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 
 /// Files that users name beside archives and that no format reads, told by their first bytes.
 
-/// What a file is that begins with `start`, unpacked, and the way out, to follow its name in a sentence:
-/// "is a tar archive: unpack it". "" where it may be the text of an archive.
+/// The kind of a file that begins with `start`, unpacked, and the way out, to follow its name in a
+/// sentence: "is a tar archive: unpack it". "" where it may be the text of an archive.
 std::string other_kind(std::string_view start);
 
-/// What a file of an archive holds.
+/// The content of a file of an archive.
 enum class FileRole { none, grains, contacts, restart };
 
 /// The beginning of a file, by which a format recognises it as one of its own.
@@ -39,7 +39,7 @@ struct FileStart {
 /// that no format reads.
 void refuse_other_kind(const std::string& path);
 
-/// The same, and FormatError where the file is damaged.
+/// The beginning of a file. Throws as refuse_other_kind() does, and FormatError where it is damaged.
 FileStart read_start(const std::string& path);
 
 }  // namespace grseg

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-/// What builds and verifies frames. Until it is written, a frame of an import has three components, also
-/// where the flow is one in a plane: then all that lies across it is 0.
+/// Helpers to build and verify frames. Until it is written, a frame of an import has three
+/// components, also where the flow is one in a plane: then all components across it are 0.
 namespace grseg {
 
 /// The shortest of the vectors that differ from this one by periods of the cell.
@@ -21,7 +21,7 @@ inline Vec3 minimum_image(const Box& box, Vec3 between)
   return between;
 }
 
-/// Of a grain that a contact names.
+/// The row of a grain that a contact names, as an index.
 inline std::size_t row(std::int32_t index)
 {
   return static_cast<std::size_t>(index);

@@ -30,7 +30,8 @@ std::string_view exponent_of_fortran(std::string_view text)
   return are_digits(digits) && (has_letter || (has_sign && digits.size() == 3)) ? text : "";
 }
 
-/// What from_chars calls out of range is 0 where it is small.
+/// Reads a number as strtod does: one too small for a double is 0, which from_chars calls out of
+/// range.
 bool read_as_c(const std::string& text, double& number)
 {
   number = std::strtod(text.c_str(), nullptr);
@@ -38,7 +39,7 @@ bool read_as_c(const std::string& text, double& number)
 }
 
 constexpr std::size_t most_words = 10'000;
-constexpr double first_word = 1e10;  // codes of words are above those of numbers
+constexpr double first_word = 1e10;  // codes of words lie above all numbers
 constexpr double largest_type = std::numeric_limits<std::int32_t>::max();
 
 bool is_nan_or_infinite(std::string_view word)

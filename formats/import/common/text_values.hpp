@@ -15,7 +15,7 @@
 
 namespace grseg {
 
-/// Whether the whole text is a number, as from_chars reads it.
+/// True where the whole text is a number, as from_chars reads it.
 template <class Number>
 bool parse_whole(std::string_view text, Number& number)
 {
@@ -24,13 +24,13 @@ bool parse_whole(std::string_view text, Number& number)
   return error == std::errc() && end == last;
 }
 
-/// The same of a finite one.
+/// True where the whole text is a finite number.
 inline bool parse_finite(std::string_view text, double& number)
 {
   return parse_whole(text, number) && std::isfinite(number);
 }
 
-/// The whole number that the text is, such as that of a column; 0 for other text.
+/// The whole number in the text, such as the number of a column; 0 for other text.
 inline std::size_t number_of(std::string_view text)
 {
   std::size_t number = 0;
@@ -44,7 +44,7 @@ inline bool is_whole(double number, double most = 9e15)
   return std::abs(number) <= most && std::trunc(number) == number;
 }
 
-/// What stands between separators; nothing behind the last one.
+/// The texts between separators; nothing behind the last one.
 std::vector<std::string> parts_of(const std::string& text, char separator);
 
 /// The finite numbers between separators; empty where something else stands there.
@@ -61,7 +61,7 @@ void read_numbers(const TextSource& source, std::vector<double>& numbers, char s
 /// The types of an archive's grains, which it gives as numbers or as words, the same at all moments.
 class TypeNames {
  public:
-  /// Whether a type may have this number.
+  /// True where a type may have this number.
   static bool is_type(double number);
   /// A number that stands for the word; itself, if it is one. None where it cannot be a type: empty, a
   /// number that is not whole or too large, or more than ten thousand different words.

@@ -63,8 +63,8 @@ void require_all_components(const ArchiveMoment& moment)
   missing.insert(missing.end(), moment.contacts.missing.begin(), moment.contacts.missing.end());
   if (missing.empty()) return;
   throw FormatError(fmt::format(
-      "{}: a flow in three dimensions needs all components, but there is no {}; write the "
-      "columns, too, or leave out those that go with them",
+      "{}: a flow in three dimensions needs all components, but there is no {}; write this column, "
+      "too, or leave out the other components of the same vector",
       moment.place, fmt::join(missing, ", nor ")));
 }
 
@@ -95,7 +95,7 @@ void place(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t g, s
   if (!from.angular_velocity.empty())
     frame.angular_velocity[to] = bed.spin(from.angular_velocity[g]);
   if (from.force.empty()) return;
-  // What programs write as the force on held grains depends on the order of their computations.
+  // The force that programs write for held grains depends on the order of their computations.
   frame.force[to].setZero();
   if (!bed.is_boundary(to)) frame.force[to] = bed.components(from.force[g]);
 }
@@ -105,7 +105,7 @@ void place_grains(const ImportedBed& bed, const ArchiveMoment& moment, Frame<3>&
   const auto& from = moment.grains;
   const auto n = bed.grains.size();
   const auto refuse_others = [&](const std::string& what) {
-    throw OtherGrains(fmt::format("{}: {}; the grains of the first moment are not those of all",
+    throw OtherGrains(fmt::format("{}: {}; not all moments have the grains of the first one",
                                   moment.place, what));
   };
   if (!bed.grains_come_and_go && from.size() != n)

@@ -17,21 +17,21 @@
 /// bytes of an import by one process.
 namespace grseg {
 
-/// What is known of a moment beside its frame: its residual (the late damping in the archive's
-/// units), and what the checks remember, in SI.
+/// A moment's numbers beside its frame: its residual (the late damping in the archive's units), and
+/// the memory of the checks, in SI.
 struct MomentRecord {
   std::optional<Residual> residual;
   CheckMoment moment;
 };
 
-/// The observables of an imported run, and their values. Those of a part are followed by a few more.
+/// The observables of an imported run, and their values. A part has a few more behind them.
 std::vector<Observable> import_observables(bool of_part);
 std::vector<double> import_values(const MomentRecord& record, bool of_part);
 
 /// Where a part stands in its archive.
 struct PartPlace {
   OutputPart part;
-  std::size_t begin = 0, end = 0, moments = 0;  // of the archive: those of the part, and all
+  std::size_t begin = 0, end = 0, moments = 0;  // moments [begin, end) of `moments` in the archive
 
   /// Says it, and what of the report an import by one process says at its end.
   Parameters parameters(const ImportReport& report) const;

@@ -149,7 +149,7 @@ void ImportedBed::make_box(const ArchiveMoment& first)
     (period.direction == 0 ? box.periodic_x : box.periodic_z) = true;
 }
 
-/// Of the cell along x or z, or, where this is none of the archive's axes, of the grains.
+/// Length of the cell along x or z, or, where this is none of the archive's axes, of the bed.
 double ImportedBed::make_length(const ArchiveMoment& first, int direction)
 {
   const auto axis = axes.axis_of(direction);

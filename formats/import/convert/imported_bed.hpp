@@ -32,9 +32,9 @@ struct Period {
   bool forward = true;  // along it; otherwise against it
 };
 
-/// What all frames of an imported run share: its grains, cell and axes, found from a moment with all
-/// grains (the first of the archive, or a Roster's), in the archive's units and the axes of the
-/// flow. Rows are grains by increasing id.
+/// The common properties of all frames of an imported run: grains, cell and axes, found from a
+/// moment with all grains (the first of the archive, or a Roster's), in the archive's units and the
+/// axes of the flow. Rows are grains by increasing id.
 struct ImportedBed {
   /// UsageError where the command line does not fit the grains, FormatError where the grains are
   /// impossible.
@@ -45,9 +45,9 @@ struct ImportedBed {
   /// A vector of the archive in the axes of the flow; in two dimensions the part in its plane.
   Vec3 components(const Vec3& vector) const;
   Vec3 spin(const Vec3& angular_velocity) const;
-  /// A moment of the archive as a frame of a trajectory (formats/README.md), in the archive's units.
-  /// Every moment must have all grains, unless they come and go: then those that a moment does not
-  /// have are absent in its frame. Grain i of a contact is mobile; contacts between two boundary
+  /// Makes a moment of the archive a frame of a trajectory (formats/README.md), in the archive's
+  /// units. Every moment must have all grains, unless they come and go: then a grain that a moment
+  /// lacks is absent in its frame. Grain i of a contact is mobile; contacts between two boundary
   /// grains are left out; the order of contacts is kept. FormatError naming the moment where grains
   /// or contacts are impossible, or lack components in three dimensions; OtherGrains where a moment
   /// has not all grains, or others.
@@ -57,18 +57,18 @@ struct ImportedBed {
   Vec3 gravity;
   double step;     // of the integration
   bool has_force;  // on grains
-  /// Whether images of frames are those of the archive. Where it does not tell how often grains have
-  /// crossed a period, images are 0 for positions within the cell.
+  /// True where images of frames come from the archive. Where it does not tell how often grains
+  /// have crossed a period, images are 0 for positions within the cell.
   bool counts_periods;
   bool grains_come_and_go;
   Grains grains;
   Box box;
   SpeciesFound species;
   RowsById rows;
-  ArchiveGrains known;       // by row, what a grain keeps: id, radius, mass, type, fixed
-  bool has_new_ids = false;  // those of the archive do not fit a trajectory: 1, 2, 3 in their order
-  std::string cell;          // how long it is along x and z and who says so, a line each
-  double origin = 0;         // height in the archive that is y = 0
+  ArchiveGrains known;           // by row, what a grain keeps: id, radius, mass, type, fixed
+  bool has_new_ids = false;      // 1, 2, 3 in order, as the archive's ids do not fit a trajectory
+  std::string cell;              // how long it is along x and z and who says so, a line each
+  double origin = 0;             // height in the archive that is y = 0
   Vec3 shift = Vec3::Zero();     // to be added to components of positions
   std::vector<Period> periods;   // of the cell: none, along x, along z, or along both
   std::vector<WallPlane> walls;  // of --wall

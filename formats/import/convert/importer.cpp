@@ -58,8 +58,8 @@ const char* source(bool of_the_archive)
   return of_the_archive ? "archive" : "command line";
 }
 
-/// What check_context() wants to know and no other parameter says: which facts are the archive's own,
-/// its axes, the types of species, tolerance, waivers.
+/// Adds the parameters that check_context() alone reads: which facts are the archive's own, its
+/// axes, the types of species, tolerance, waivers.
 void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
                           const ImportSettings& settings)
 {
@@ -179,17 +179,18 @@ Vec3 gravity_in_archive(const RunFacts& facts)
   const bool offer = fitting.empty() && complaint.check == "balance";
   throw CheckError(
       fmt::format("{}: {}{}{}{}", frames.place(), complaint.sentence, fitting, others,
-                  offer ? "; --accept-residual balance=R imports what balances to R" : ""));
+                  offer ? "; --accept-residual balance=R accepts residuals up to R" : ""));
 }
 
-/// What is left out of the archive, and the like: complete once it has been read to its end.
+/// Sentences on everything left out of the archive or changed: complete once it has been read to
+/// its end.
 std::vector<std::string> remarks_of(const VerifiedFrames& frames)
 {
   auto remarks = frames.scanned().remarks();
   if (frames.bed().has_new_ids)
     remarks.emplace_back(
-        "ids beyond 2^31 are 1, 2, 3, ... in their order; /parameters/import_ids has those of the "
-        "archive");
+        "ids beyond 2^31 are numbered 1, 2, 3, ... in their order; /parameters/import_ids has the "
+        "archive's ids");
   if (frames.walls()) remarks.push_back(frames.walls()->remark());
   if (!frames.bed().has_force)
     remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
@@ -231,8 +232,8 @@ void flatten(const Frame<3>& from, Frame<2>& to)
   take(contacts.branch, to.contacts.branch);
 }
 
-/// Verifies and writes all frames to the file `path`. Those of a part are only judged one by one, and
-/// all of them when parts are joined.
+/// Verifies and writes all frames to the file `path`. In a part each frame is judged alone; checks
+/// of all moments are made when parts are joined.
 ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
                      const ImportSettings& settings, const std::string& command_line,
                      const std::string& path)
@@ -275,7 +276,7 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
   return report;
 }
 
-/// Where a moment has other grains than those that were scanned, all moments are, and it begins again.
+/// Begins again with a scan of all moments where a moment has other grains than the scanned ones.
 ImportReport import_whole(const ImportSettings& settings, const std::string& command_line)
 {
   Output output(settings.output, settings.overwrite, inputs_of(settings.files));

@@ -93,7 +93,7 @@ void InferredWalls::add(Frame<3>& frame, std::size_t grain, std::vector<Touch> t
 {
   const auto push = [&](const Touch& touch) { return missing.dot(touch.normal); };
   if (touches.size() > 1) ++at_two_;
-  // Those that would pull get nothing as long as another pushes.
+  // A wall that would pull gets nothing as long as another pushes.
   std::sort(touches.begin(), touches.end(),
             [&](const Touch& a, const Touch& b) { return push(a) > push(b); });
   while (touches.size() > 1 && !(push(touches.back()) > 0)) touches.pop_back();
@@ -108,7 +108,7 @@ void InferredWalls::add(Frame<3>& frame, std::size_t grain, std::vector<Touch> t
     append(frame, grain, touch, push(touch) * touch.normal + push(touch) / pushes * rest);
 }
 
-/// Of contacts and weights.
+/// The largest size of a contact force or weight in the frame.
 double InferredWalls::largest_force(const Frame<3>& frame) const
 {
   double largest = 0;
@@ -123,7 +123,7 @@ void InferredWalls::add_to(Frame<3>& frame)
 {
   if (frame.force.empty())
     throw UsageError(
-        "--wall: the archive has no forces on grains, from which those of walls could be inferred; "
+        "--wall: the archive has no forces on grains, from which wall forces could be inferred; "
         "dump them (fx fy fz), or the contacts with walls themselves (--wall-contacts)");
   auto& contacts = frame.contacts;
   std::multimap<std::size_t, std::size_t> already;  // grains, and contacts that the frame has
@@ -160,8 +160,8 @@ void InferredWalls::add_to(Frame<3>& frame)
 std::string InferredWalls::remark() const
 {
   return fmt::format(
-      "forces of {} are inferred from the balance of the grains that touch them, of which it is then "
-      "no check",
+      "forces of {} are inferred from the balance of the grains that touch them, so that this balance "
+      "checks nothing",
       list_of(bed_.walls));
 }
 
@@ -169,11 +169,11 @@ std::vector<std::string> InferredWalls::counts() const
 {
   std::vector<std::string> remarks;
   if (contacts_ > 0)
-    remarks.push_back(fmt::format("{} to {} grains touch these walls in a moment", fewest_, most_));
+    remarks.push_back(fmt::format("{} to {} grains touch these walls at a moment", fewest_, most_));
   if (at_two_ > 0)
     remarks.push_back(fmt::format(
-        "of these {} contacts, {} times a grain touches more than one wall: their friction cannot be "
-        "told apart and is shared in proportion to their normal forces",
+        "{1} times a grain touches more than one of these walls ({0} contacts in all): the friction "
+        "of each wall is not known and is shared in proportion to the normal forces",
         contacts_, at_two_));
   if (pulling_ > 0)
     remarks.push_back(fmt::format(
@@ -182,8 +182,8 @@ std::vector<std::string> InferredWalls::counts() const
   for (std::size_t w = 0; w < bed_.walls.size(); ++w)
     if (contacts_of_[w] == 0)
       remarks.push_back(
-          fmt::format("no grain ever touches the wall {} ({}), of which the archive "
-                      "has no contacts either: is it there?",
+          fmt::format("no grain ever touches the wall {} ({}), and the archive has no "
+                      "contacts with it either: is it there?",
                       bed_.walls[w].name, bed_.walls[w].place()));
   return remarks;
 }

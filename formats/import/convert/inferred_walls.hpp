@@ -24,14 +24,14 @@ class InferredWalls {
   /// dimensions or across a period.
   explicit InferredWalls(const ImportedBed& bed);
 
-  /// Appends these contacts to those of the frame. The walls here have the first numbers; those of
+  /// Appends these contacts to the frame. The walls here have the first numbers; wall numbers of
   /// contacts that the frame already has move up by as many. A wall that the grain already has a
   /// contact with is left out. UsageError where grains have no forces.
   void add_to(Frame<3>& frame);
 
   /// By row, of the last frame: 1 where the balance of the grain went into a wall's force.
   const std::vector<std::uint8_t>& inferred() const { return inferred_; }
-  /// What is done, in a sentence that is the same for every part of an archive.
+  /// A sentence on the walls and their contacts, equal in every part of an archive.
   std::string remark() const;
   /// How often it was done so far, a sentence each.
   std::vector<std::string> counts() const;

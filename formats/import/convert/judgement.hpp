@@ -16,10 +16,11 @@ namespace grseg {
 /// wrong setting is refused early, and at the end.
 class Judgement {
  public:
-  /// Of the run that is written, which it refers to; CheckError where its species are already wrong.
+  /// Judges the run that is written, which it refers to; CheckError where its species are already
+  /// wrong.
   explicit Judgement(const RunDescription& run);
 
-  /// Of one moment, in SI. CheckError naming `place` where a check fails.
+  /// Adds one moment, in SI. CheckError naming `place` where a check fails.
   void add(const MomentRecord& record, const std::string& place);
   /// Fills in what the report says of all moments; parameters that say it, too. CheckError where a
   /// check fails, and with `strict` where one is undecided.

@@ -28,7 +28,7 @@ double time_of(const ArchiveMoment& moment)
   return moment.step ? static_cast<double>(*moment.step) : *moment.time;
 }
 
-/// Of all moments, as they follow in the archive.
+/// The times of all moments, as they follow in the archive.
 std::vector<double> times_of(Archive& archive)
 {
   std::vector<double> times;
@@ -44,7 +44,7 @@ std::vector<double> times_of(Archive& archive)
   return times;
 }
 
-/// Of ids and positions, whatever the order of the rows.
+/// A digest of ids and positions, independent of the order of the rows.
 std::uint64_t digest_of(const ArchiveGrains& grains)
 {
   std::uint64_t sum = 0;
@@ -166,10 +166,10 @@ bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
 std::string RepeatedMoments::remark() const
 {
   if (same_ > 0 && dropped_ == 0)
-    return fmt::format("{} {} twice, the same; each counts once", counted(same_, "moment"),
+    return fmt::format("{} {} twice with equal grains; each counts once", counted(same_, "moment"),
                        same_ == 1 ? "comes" : "come");
   if (dropped_ > 0)
-    return fmt::format("{} of a job that another one repeats are left out",
+    return fmt::format("{} of a job are left out, which another job repeats",
                        counted(same_ + dropped_, "moment"));
   return "";
 }

@@ -27,7 +27,7 @@ class MomentRange {
   /// Where a moment lies. `step`, the length of one, is that with which a moment that has only a step
   /// or only a time is compared with the other. UsageError where it is needed and not known.
   Side side(const ArchiveMoment& moment, const std::optional<double>& step);
-  /// Of all moments so far: "12 moments from t = 0 (step 0) to t = 1.1 (step 110000)".
+  /// A sentence on all moments so far: "12 moments from t = 0 (step 0) to t = 1.1 (step 110000)".
   std::string seen() const;
   /// "--begin 5 --end 6"
   const std::string& text() const { return text_; }
@@ -57,9 +57,10 @@ class RepeatedMoments {
   explicit RepeatedMoments(Repeated which) : which_(which) {}
 
   bool needs_all_times() const { return which_ == Repeated::last; }
-  /// Of all moments, as they follow in the archive; needed for Repeated::last alone.
+  /// Takes the times of all moments, as they follow in the archive; needed for Repeated::last
+  /// alone.
   void set_times(const std::vector<double>& times);
-  /// Whether this moment, the next one of the archive, counts. UsageError where one comes again
+  /// True where this moment, the next one of the archive, counts. UsageError where one comes again
   /// otherwise than before, and nothing says which counts.
   bool counts(const ArchiveMoment& moment);
   /// How many did not, in a sentence; "" where all did.
@@ -84,7 +85,7 @@ class Moments {
   /// Reads the next moment; false at the end. UsageError at an end without any moment, where there
   /// are others outside the range.
   bool next(ArchiveMoment& moment) { return advance(moment, &Archive::next); }
-  /// The same with the grains alone; contacts may be there or not.
+  /// Like `next`, with the grains alone; contacts may be there or not.
   bool next_grains(ArchiveMoment& moment)
   {
     // Contacts, too, may be what is incomplete.

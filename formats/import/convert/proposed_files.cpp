@@ -87,7 +87,7 @@ std::vector<std::string> samples_of(const ArchiveFiles& files)
     });
     if (is_known) continue;
     throw UsageError(fmt::format(
-        "{}: what it holds{} is not known{}; name it with --grains or --contacts{}", unnamed[k],
+        "{}: its content{} is not known{}; name it with --grains or --contacts{}", unnamed[k],
         named.empty() ? "" : " of --format " + named,
         starts[k].lines.empty() ? "" : " by its first line, " + in_quotes(starts[k].lines.front()),
         named.empty() ? ", and its --format" : ""));
@@ -157,7 +157,7 @@ void take_all(const Roles& roles, const ArchiveFormat& format, ArchiveFiles& fil
   files.unnamed.clear();
 }
 
-/// What cannot be proposed. Without it nothing can be read.
+/// Asks for the files that cannot be proposed. Without them nothing can be read.
 void ask_for_the_rest(const ImportSettings& settings, Questions& questions)
 {
   const auto& files = settings.files;

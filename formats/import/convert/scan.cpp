@@ -243,8 +243,8 @@ ArchiveMoment ScannedArchive::full_moment(const ImportSettings& settings) const
   return full;
 }
 
-/// What species and origin leave open. Where other answers are missing, what else is wrong may come
-/// from that.
+/// Asks for everything that species and origin leave open. An error is only thrown where no
+/// question is open, as it may come from a missing answer.
 void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
                                      const std::vector<bool>& resting, Questions& questions) const
 {
@@ -297,7 +297,7 @@ Question ScannedArchive::question_of_cell(const ImportSettings& settings, int ax
           "moments"};
 }
 
-/// Areas and volumes are those of the cell.
+/// Asks for the ends of the cell: areas and volumes of the bed are computed with them.
 void ScannedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& questions) const
 {
   const auto walls = parse_walls(settings.walls);

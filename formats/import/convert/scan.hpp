@@ -33,9 +33,9 @@ struct Roster {
   bool grains_change() const { return fewest < all.grains.size(); }
 };
 
-/// What a grain keeps for as long as it has its id: radius, mass, type, and whether it is fixed, as
-/// far as the archive has them. FormatError naming `place`, with what to do, where grain g of `now`
-/// is not the same as grain `row` of `known`.
+/// Checks that a grain keeps its radius, mass, type and fixed flag for as long as it has its id, as
+/// far as the archive has them. FormatError naming `place`, with a remedy, where grain g of `now`
+/// differs from grain `row` of `known`.
 void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
                         std::size_t g, const std::string& place);
 
@@ -44,8 +44,8 @@ struct OtherGrains : FormatError {
   using FormatError::FormatError;
 };
 
-/// What a scan of an archive finds: the facts of its run, and, where grains come and go, a roster of
-/// them; and the archive itself at one of its moments, from the first on.
+/// A scanned archive: the facts of its run, and, where grains come and go, a roster of them; and
+/// the archive itself at one of its moments, from the first on.
 class ScannedArchive {
  public:
   /// From the grains of the first moments alone, without a roster. Throws what readers and facts
@@ -56,12 +56,12 @@ class ScannedArchive {
 
   /// Reads the next moment; false at the end. OpenQuestions where the reader cannot go on.
   bool next();
-  /// The same without its contacts.
+  /// Like `next`, without the contacts of the moment.
   bool next_grains() { return moments_.next_grains(moment); }
   const Archive& archive() const { return moments_.archive(); }
   /// Sentences on what is left out so far.
   std::vector<std::string> remarks() const;
-  /// Of all moments; null where they all have the grains of the first one.
+  /// The grains of all moments; null where they all have the grains of the first one.
   const std::shared_ptr<const Roster>& roster() const { return roster_; }
   /// A moment with all grains of the run: the roster's, or as long as it has not been left the first.
   const ArchiveMoment& all_grains() const { return roster_ ? roster_->all : moment; }

@@ -28,7 +28,7 @@ class VerifiedFrames {
   bool next(Frame<3>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_.residual(); }
-  /// Of the last frame, in the archive's units.
+  /// The checks' memory of the last frame, in the archive's units.
   const CheckMoment& moment() const { return verification_.moment(); }
   const std::string& place() const { return scanned_.moment.place; }
 
@@ -37,7 +37,7 @@ class VerifiedFrames {
   const RunFacts& facts() const { return scanned_.facts; }
   const ImportedBed& bed() const { return bed_; }
   const Waivers& waivers() const { return waivers_; }
-  /// Those of --wall; null where there are none.
+  /// The walls of --wall; null where there are none.
   const InferredWalls* walls() const { return walls_.get(); }
 
  private:

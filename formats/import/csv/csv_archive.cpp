@@ -18,7 +18,7 @@
 namespace grseg {
 namespace {
 
-/// What the comments above a table of grains say of the run, in the table's units, a line each:
+/// Facts of the run in the comments above a table of grains, in the table's units, a line each:
 ///   # periodic: x 0 0.35          for each axis that is
 ///   # gravity: 3.83 -9.02 0
 ///   # step: 1e-5
@@ -147,7 +147,7 @@ Vec3 vector_at(const CsvTable& table, std::size_t row, std::size_t x)
   return {table.value(row, x), table.value(row, x + 1), table.value(row, x + 2)};
 }
 
-/// Whether there is a column of one of the three components.
+/// True where there is a column of one of the three components.
 bool has_any(const CsvTable& table, std::size_t x)
 {
   return table.has(x) || table.has(x + 1) || table.has(x + 2);
@@ -213,7 +213,7 @@ class CsvArchive : public Archive {
     require_y_or_z(grains_, of_grain::vx, "vy");
     require_y_or_z(contacts_, of_contact::fx, "fy");
     facts_.tolerance = 1e-4;
-    facts_.lists_all = false;  // they may be those of contact dynamics
+    facts_.lists_all = false;  // the table may come from contact dynamics
     facts_.tolerance_reason = "the digits of the tables";
   }
 
@@ -257,7 +257,7 @@ class CsvArchive : public Archive {
       const auto grains = grains_.moment(), contacts = contacts_.moment();
       if (grains.is_step != contacts.is_step)
         contacts_.fail(fmt::format(
-            "the table of contacts has {}, but that of grains has {}: give both the same, as a column "
+            "the table of contacts has {}, but the table of grains has {}: give both the same, as a column "
             "or in the names of files",
             contacts.is_step ? "steps" : "times", grains.is_step ? "steps" : "times"));
       const double a = grains.value, b = contacts.value;

@@ -74,7 +74,7 @@ void CsvMap::add_list(const std::string& list)
   parts_.insert(parts_.end(), parts.begin(), parts.end());
 }
 
-/// Whether the names that the list gives to numbers of columns belong to the other table.
+/// True where the names that the list gives to numbers of columns belong to the other table.
 bool CsvMap::is_of_the_other_table(const std::vector<Part>& list) const
 {
   const auto has = [&](const auto& these, const auto& those) {

@@ -12,17 +12,17 @@ namespace grseg {
 /// Names as they are compared: in lower case, without blanks and quotation marks.
 std::string bare_name(std::string_view text);
 
-/// The same without a unit in brackets: " Radius [m]" and "radius(m)" are radius.
+/// The name without a unit in brackets: " Radius [m]" and "radius(m)" are radius.
 std::string plain_name(std::string_view text);
 
-/// What --map says of the columns of one of the two plain tables: "particle1=i,Fx=fx" gives columns
-/// other names, "fx=" has one left out. "2=x" names a column by its number, from 1; a list of such
-/// parts holds for the table that its names belong to. "row=id" takes the number of a row at its
-/// moment for an id, from 0, and "row+1=id" from 1.
+/// The parts of --map for the columns of one of the two plain tables: "particle1=i,Fx=fx" gives
+/// columns other names, "fx=" has one left out. "2=x" names a column by its number, from 1; a list
+/// of such parts holds for the table that its names belong to. "row=id" takes the number of a row
+/// at its moment for an id, from 0, and "row+1=id" from 1.
 class CsvMap {
  public:
-  /// `known` are the names that columns of this table may have, `elsewhere` those of the other.
-  /// UsageError where a part is not NAME=COLUMN, or COLUMN is none of either.
+  /// `known` are the names that columns of this table may have, `elsewhere` the names in the other
+  /// table. UsageError where a part is not NAME=COLUMN, or COLUMN is none of either.
   CsvMap(const std::vector<std::string>& given, const std::vector<std::string>& known,
          const std::vector<std::string>& elsewhere);
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::string_view digits = "0123456789";
 
-/// What the last `*` of one of the patterns stands for in `path`; otherwise its name without
-/// endings.
+/// The part of `path` in the place of a pattern's last `*`; where no pattern fits, the file's name
+/// without endings.
 std::string moment_in(const std::string& path, const std::vector<std::string>& patterns)
 {
   for (const auto& pattern : patterns) {
@@ -194,7 +194,7 @@ void CsvTable::read_names()
   require_a_moment();
 }
 
-/// Whether all fields of the line, which should be names, are numbers, or more than half of them.
+/// True where the line, which should hold names, has numbers in all fields, or in more than half.
 bool CsvTable::is_row_of_numbers()
 {
   for (const bool all : {true, false})
@@ -278,7 +278,7 @@ void CsvTable::require_a_moment() const
         names()));
 }
 
-/// Whether the first line of a file names columns again.
+/// True where the first line of a file names columns again.
 bool CsvTable::is_header() const
 {
   CsvNumbers numbers(separator_);

@@ -31,8 +31,8 @@ struct CsvFile {
 /// shell may have replaced) the digits are the last ones before the ending.
 std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option);
 
-/// What separates the columns of a table: the first of comma, semicolon and tab that the line of its
-/// names contains outside quotation marks, or blanks.
+/// The separator of a table's columns: the first of comma, semicolon and tab in the line of its
+/// names, outside quotation marks, or blanks.
 char csv_separator(std::string_view names);
 
 /// The fields of a line. A field in quotation marks may hold separators; the marks and the blanks
@@ -47,7 +47,7 @@ class CsvNumbers {
 
   /// False where `field` is not a finite number, or has the other decimal sign than those before.
   bool read(std::string_view field, double& number);
-  /// What more there is to say of a field that is not read; may be "".
+  /// A reason why the field is not read, to be added to a sentence; may be "".
   const char* why_not(std::string_view field) const;
 
  private:
@@ -84,15 +84,15 @@ class CsvTable {
   CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map);
 
   bool has(std::size_t column) const { return place_[column] >= 0; }
-  /// What the words in a column of words mean.
+  /// The meaning of the words in a column of words.
   TypeNames& words() { return words_; }
   const std::vector<std::string>& comments() const { return comments_; }
   /// For a sentence: the names at hand.
   std::string names() const;
   [[noreturn]] void fail(const std::string& why) const;
 
-  /// Reads the rows of the next moment; false at the end. FormatError naming the line where a row is
-  /// damaged or of a moment before that of the row above.
+  /// Reads the rows of the next moment; false at the end. FormatError naming the line where a row
+  /// is damaged, or of an earlier moment than the row above.
   bool next();
   CsvMoment moment() const { return moment_; }
   /// To the next moment; 0 at the end.

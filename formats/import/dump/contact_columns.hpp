@@ -20,8 +20,8 @@ struct ColumnWords {
   std::vector<std::pair<const char*, std::size_t>> triples;  // of three words from one on
 };
 
-/// Which column of a row means what: "i=2,j=3,force=5". Columns are given by number, from 1, or by
-/// name; that of a triple is the number of the first of three.
+/// The meaning of each column of a row: "i=2,j=3,force=5". Columns are given by number, from 1, or
+/// by name; a triple is given by the number of its first column.
 class ColumnMap {
  public:
   /// UsageError where the text is not of this form, or where a word is not known.
@@ -71,7 +71,7 @@ class ContactColumns : public ColumnMap {
   enum Meaning { i, j, fx, fy, fz, tx, ty, tz, bx, by, bz, dist, overlap, wall };
 };
 
-/// What `fx fy fz` of contacts are where other columns hold the tangential force.
+/// The meaning of `fx fy fz` of contacts where other columns hold the tangential force.
 enum class PlainForce { normal, whole };
 
 /// The mapping of columns that are named by what they hold, by `dump_modify

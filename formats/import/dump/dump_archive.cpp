@@ -38,7 +38,8 @@ class ColumnTrial {
     dumps.contacts().read_rows(all, rows_);
   }
 
-  /// What balance() says with these columns; nothing where one cannot have the meaning given to it.
+  /// The residual of balance() with these columns; nothing where one cannot have the meaning given
+  /// to it.
   std::optional<double> residual(const std::string& columns)
   {
     try {
@@ -252,8 +253,8 @@ class DumpArchive : public Archive {
     columns_->fill(values_, header.place, moment.contacts);
   }
 
-  /// Those that forces show where names and their number do not, or where these are wrong. What is not
-  /// sure becomes a question.
+  /// Finds the columns from forces where names and their number do not tell, or where these are
+  /// wrong. An unsure finding becomes a question.
   void find_columns(const DumpHeader& header, ArchiveMoment& moment)
   {
     columns_text_ = dialect_.assumed(header, moment.grains);
@@ -266,7 +267,7 @@ class DumpArchive : public Archive {
       columns_text_ = others[0];  // the only list of keywords that has as many columns
     const auto why =
         fit ? fmt::format(
-                  "with these the forces on grains add up but for {:.2g} of a contact force",
+                  "with these the forces on grains add up to within {:.2g} of a contact force",
                   fit->residual)
             : fmt::format("as in {}", dialect_.example);
     moment.questions.push_back(
@@ -301,7 +302,7 @@ class DumpArchive : public Archive {
   ArchiveFacts facts_;
 };
 
-/// Of the first block: "ATOMS" and its columns; none where the file is no dump.
+/// The label of the first block, "ATOMS", and its columns; none where the file is no dump.
 std::pair<std::string, std::vector<std::string>> label_and_columns(const FileStart& start)
 {
   std::pair<std::string, std::vector<std::string>> found{"ENTRIES", {}};
@@ -324,7 +325,7 @@ ArchiveFacts facts_of_late_forces(const std::string& program)
   facts.forces_are_late = true;
   facts.tolerance = 5e-2;
   facts.tolerance_reason = program +
-                           " evaluates contact forces anew at output, with the velocities of the "
+                           " evaluates contact forces again for output, with the velocities at the "
                            "end of the step";
   return facts;
 }

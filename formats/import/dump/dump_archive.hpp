@@ -20,14 +20,14 @@ struct DumpDialect {
   /// Other possible values of --columns.
   std::vector<std::string> (*others)(const DumpHeader& contacts);
   const char* example;  // of --columns
-  /// What --wall-columns means for these rows of contacts with walls, as a mapping of WallRows; null
-  /// where the program writes no such rows.
+  /// The meaning of --wall-columns for these rows of contacts with walls, as a mapping of WallRows;
+  /// null where the program writes no such rows.
   std::string (*wall_mapping)(const std::string& columns, const DumpHeader& walls);
-  ArchiveFacts facts;  // that are the same for every run
+  ArchiveFacts facts;  // common to all runs of the program
 };
 
 /// Facts of a program that re-evaluates contact forces at output, with velocities half a step later
-/// than those that moved the grains.
+/// than the velocities that moved the grains.
 ArchiveFacts facts_of_late_forces(const std::string& program);
 
 /// Grains where a dump holds ATOMS, contacts where it holds other rows.

@@ -7,10 +7,10 @@
 
 namespace grseg {
 
-/// Reads blocks of `dump custom` by the names of their columns, which are those of LAMMPS and
-/// LIGGGHTS: id, type, mass, radius or diameter; x y z, or unwrapped xu yu zu, or xs ys zs in parts
-/// of the cell; ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions are required,
-/// a missing component is 0 and said to be missing, other columns are ignored.
+/// Reads blocks of `dump custom` by the names that LAMMPS and LIGGGHTS give to their columns: id,
+/// type, mass, radius or diameter; x y z, or unwrapped xu yu zu, or xs ys zs in parts of the cell;
+/// ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions are required, a missing
+/// component is 0 and listed as missing, other columns are ignored.
 class DumpGrains {
  public:
   /// Reads the rows of the current block of `dump`, and `more` columns of them, by number.
@@ -21,7 +21,7 @@ class DumpGrains {
  private:
   TypeNames types_;
   std::vector<std::vector<double>> values_;
-  std::size_t own_ = 0;  // columns before those of `more`
+  std::size_t own_ = 0;  // columns in front of `more`
 };
 
 }  // namespace grseg

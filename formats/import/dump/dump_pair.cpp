@@ -27,7 +27,7 @@ std::optional<std::int64_t> first_step_in(const std::string& start)
   return error == std::errc() ? std::optional(step) : std::nullopt;
 }
 
-/// Whether two names differ in one number alone.
+/// True where two names differ in one number alone.
 bool differ_in_one_number(const std::string& a, const std::string& b)
 {
   const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
@@ -234,7 +234,7 @@ bool DumpPair::next()
   }
   if (!any_ && without_walls_.count > 0)
     throw FormatError(fmt::format(
-        "no step is in all dumps: steps {} of grains and contacts are not in that of the contacts with "
+        "no step is in all dumps: steps {} of grains and contacts are not in the dump of contacts with "
         "walls; write them at the same steps",
         fmt::join(without_walls_.first, ", ")));
   return false;

@@ -22,7 +22,7 @@ class JoinedDumps {
   /// Advances to the next step; false at the end. What DumpReader throws, and FormatError naming the
   /// parts where they hold different steps or columns.
   bool next();
-  /// Of the first part, with the rows of all that have a header.
+  /// The header of the first part, with the rows of all parts that have a header.
   const DumpHeader& header() const { return header_; }
   const std::optional<std::string>& units() const { return parts_.front().units(); }
   /// The rows of all parts, one after the other, as DumpReader reads them.
@@ -63,9 +63,11 @@ class DumpPair {
   /// Advances to the next step that both have; false at the end. Then the rows can be read. FormatError
   /// with their first steps where there is no such step at all.
   bool next();
-  /// False where the grains are those of the pair before, whose contacts were incomplete.
+  /// False where the grains are still the grains of the pair before, whose contacts were
+  /// incomplete.
   bool grains_are_new() const { return grains_are_new_; }
-  /// The block of one dump has turned out to be incomplete: that of the other stays for the next pair.
+  /// Called where the block of one dump is incomplete: the block of the other dump stays for the
+  /// next pair.
   void keep_contacts() { contacts_.waits = true; }
   void keep_grains() { grains_.waits = true; }
   JoinedDumps& grains() { return grains_.dump; }

@@ -237,7 +237,7 @@ void DumpReader::read_rows(std::span<const std::size_t> wanted,
   }
 }
 
-/// Of a word that is not simply a number to its end.
+/// The number in a word that is not simply a number to its end.
 double DumpReader::number_in(std::string_view word, std::size_t column, TypeNames* names)
 {
   double value = 0;

@@ -15,7 +15,7 @@
 
 namespace grseg {
 
-/// What precedes the rows of one block of a text dump.
+/// The lines above the rows of one block of a text dump.
 struct DumpHeader {
   std::int64_t step = 0;
   std::optional<double> time;
@@ -33,7 +33,7 @@ struct DumpHeader {
 
 /// A column of types, whose words stand for numbers.
 struct TypeColumn {
-  int place = -1;  // among those that are wanted; -1: there is none
+  int place = -1;  // among the wanted columns; -1: there is none
   TypeNames* names = nullptr;
 };
 
@@ -47,7 +47,8 @@ struct TypeColumn {
 class DumpReader {
  public:
   explicit DumpReader(std::vector<std::string> files) : source_(std::move(files)) {}
-  /// Of files that hold nothing but rows of the block with this header, all of which can be read.
+  /// Reads files that hold nothing but rows of the block with this header, all of which can be
+  /// read.
   DumpReader(std::vector<std::string> files, DumpHeader header)
       : source_(std::move(files)), header_(std::move(header)), has_rows_alone_(true)
   {

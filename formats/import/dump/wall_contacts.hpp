@@ -15,8 +15,8 @@ namespace grseg {
 /// follow the force of the wall on the grain, the contact point, and the radius.
 class WallColumns {
  public:
-  /// `text`: "floor=f_floor[1],sides=27", the first of eight columns of each wall; "none"; or "" for
-  /// those that are recognised by their names.
+  /// `text`: "floor=f_floor[1],sides=27", the first of eight columns of each wall; "none"; or ""
+  /// where walls are recognised by the names of their columns.
   explicit WallColumns(const std::string& text) : text_(text) {}
 
   /// UsageError where a column is not there.

@@ -10,9 +10,9 @@
 
 namespace grseg {
 
-/// The axes of a flow within those of an archive: down the slope (x), normal to the base, upward
+/// The axes of a flow within the axes of an archive: down the slope (x), normal to the base, upward
 /// (y), and across (z = x cross y). They are always right-handed and only ever turned, never
-/// mirrored, so that spins and the sense of every oblique contact stay what they are.
+/// mirrored, so that spins and oblique contacts keep their sense.
 class Axes {
  public:
   /// Two of the letters x, y, z, e.g. "xz": along the base and away from it. UsageError otherwise.
@@ -59,16 +59,16 @@ struct Orientation {
 Orientation orientation_of(const std::string& letters, const GravityText& gravity,
                            std::optional<double> slope, int dimension);
 
-/// UsageError unless gravity, as given in the archive's axes, has a part along the normal. `letters`
-/// are those of --axes.
+/// UsageError unless gravity, as given in the archive's axes, has a part along the normal.
+/// `letters` are the value of --axes.
 void require_towards_the_base(const Vec3& gravity, const Orientation& orientation,
                               const std::string& letters);
 
-/// Whether the flow is one in the plane of `axes` (two letters) or in space, by the grains of the
-/// first moment: 2 where their centres lie in this plane, to a tenth of the largest radius, 3 where
-/// they do not and are spheres. `asked` takes spheres that lie in a plane for a flow in space.
-/// UsageError where it contradicts the grains, where discs lie apart, or where spheres lie in
-/// another plane of the archive's axes, which may be the one that was meant.
+/// Dimension of the flow, by the grains of the first moment: 2 where their centres lie in the plane
+/// of `axes` (two letters), to a tenth of the largest radius, 3 where they do not and are spheres.
+/// `asked` takes spheres that lie in a plane for a flow in space. UsageError where it contradicts
+/// the grains, where discs lie apart, or where spheres lie in another plane of the archive's axes,
+/// which may be the one that was meant.
 int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs,
                  std::optional<int> asked);
 

@@ -37,8 +37,9 @@ po::options_description archive_options(ImportSettings& s)
   for (const auto* format : archive_formats())
     if (format->takes_restart) with_restart.emplace_back(format->name);
   const auto formats = fmt::format("program: {}", fmt::join(all_formats, ", "));
-  const auto restart = fmt::format("{} only: its restart file, which holds what its others lack",
-                                   fmt::join(with_restart, ", "));
+  const auto restart =
+      fmt::format("{} only: its restart file, with facts that the other files lack",
+                  fmt::join(with_restart, ", "));
   po::options_description archive("The archive");
   archive.add_options()("format", word_option(&s.format, all_formats), formats.c_str())(
       "grains", files(s.files.grains),
@@ -47,22 +48,22 @@ po::options_description archive_options(ImportSettings& s)
                            "files with the contacts, likewise")(
       "restart", po::value(&s.files.restart)->value_name("FILE"), restart.c_str())(
       "columns", po::value(&s.files.columns)->value_name("MAP"),
-      "what the columns of the contacts mean, e.g. i=2,j=3,dist=4,force=5,tangential=8")(
+      "meaning of the columns of the contacts, e.g. i=2,j=3,dist=4,force=5,tangential=8")(
       "begin", optional(s.begin, "T"),
-      "leave out what comes before this time, in the archive's units, or before step:N")(
-      "end", optional(s.end, "T"), "leave out this time and what comes after, likewise")(
+      "leave out moments before this time, in the archive's units, or before step:N")(
+      "end", optional(s.end, "T"), "leave out moments at and after this time, likewise")(
       "repeated", word(s.repeated, words_of(repeated_words)),
-      "where a job that began from an earlier checkpoint repeats moments otherwise: first or last, "
-      "the job that counts")(
+      "the job that counts, first or last, where one that began from an earlier checkpoint repeats "
+      "moments with other values")(
       "wall-contacts", files(s.files.wall_contacts),
       "liggghts only: files with the contacts with meshes (compute wall/gran/local)")(
       "wall-columns", po::value(&s.files.wall_columns)->value_name("MAP"),
-      "what their columns mean; lammps: columns of fix wall/gran in the grains, floor=f_floor[1]")(
+      "meaning of their columns; lammps: columns of fix wall/gran in the grains, floor=f_floor[1]")(
       "map", po::value(&s.files.map)->composing()->value_name("NAME=COLUMN"),
-      "csv only: what other names of columns mean, e.g. particle1=i,Fx=fx, or their numbers, 1=id,2=x; "
-      "NAME= leaves one out; row=id numbers the rows")(
+      "csv only: meaning of columns with other names, e.g. particle1=i,Fx=fx, or by their numbers, "
+      "1=id,2=x; NAME= leaves a column out; row=id numbers the rows")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
-      "leave out moments that a text archive, or a job whose files another one continues, ends in");
+      "leave out incomplete moments, where a text archive or a job ends that was cut off");
   return archive;
 }
 
@@ -73,10 +74,10 @@ po::options_description fact_options(ImportSettings& s)
                       "si, cgs, or LENGTH:TIME:MASS of its units in m, s, kg")(
       "step", optional(s.step, "DT"), "length of a time step")(
       "frame-interval", optional(s.interval, "T"),
-      "time between two moments, where the archive counts these and not steps")(
+      "time between two moments, where the archive numbers moments and not steps")(
       "gravity", optional(s.gravity, "G"), "vector GX,GY,GZ, or its magnitude beside --slope")(
       "slope", optional(s.slope, "DEGREES"),
-      "of the base; with a vector the axes are turned to it")(
+      "inclination of the base; with a vector, --gravity, the axes are turned to it")(
       "grains-are", word(s.grains, words_of(grain_words)), "discs or spheres")(
       "density", optional(s.density, "RHO"), "of discs per area, of spheres per volume")(
       "axes", optional(s.axes, "XY"),
@@ -97,17 +98,17 @@ po::options_description species_options(SpeciesSettings& species)
   po::options_description sizes("Species");
   sizes.add_options()(
       "species", po::value(&species.named)->composing()->value_name("NAME=TYPES"),
-      "any number of species, this once for each: mobile grains of these types, or of "
-      "all; NAME=TYPES:D gives the nominal diameter")("small", optional(species.small, "TYPES"),
-                                                      "types of small grains: 1 or 1,4-6")(
+      "a species, once for each: mobile grains of these types, or all; NAME=TYPES:D gives its "
+      "nominal diameter")("small", optional(species.small, "TYPES"),
+                          "types of small grains: 1 or 1,4-6")(
       "large", optional(species.large, "TYPES"), "types of large grains")(
       "split-diameter", optional(species.split_diameter, "D"),
-      "small below, large from here on (default: two sizes far apart)")(
+      "smallest diameter of large grains (default: between two sizes far apart)")(
       "boundary", optional(species.boundary, "TYPES"),
       "types of base grains; none: there is no base")(
       "boundary-ids", optional(species.boundary_ids, "IDS"), "base grains by id: 1-35,70")(
       "small-diameter", optional(species.small_diameter, "D"),
-      "nominal, the unit of length in analyses (default: mid-range)")(
+      "nominal diameter, the unit of length in analyses (default: mid-range)")(
       "large-diameter", optional(species.large_diameter, "D"), "likewise");
   return sizes;
 }
@@ -117,10 +118,10 @@ po::options_description output_options(ImportSettings& s)
   po::options_description output("The trajectory");
   output.add_options()("output,o", po::value(&s.output)->value_name("FILE"), "the file to write")(
       "accept-residual", po::value(&s.accept_residual)->composing()->value_name("NAME=R"),
-      "waive one check up to R, as in balance=0.1 (of the largest force) or overlap=0.6 (of a "
-      "radius); its name is printed with it")(
+      "accept a failed check up to R, as in balance=0.1 (of the largest force) or overlap=0.6 (of a "
+      "radius); messages name the check")(
       "strict", po::bool_switch(&s.strict),
-      "refuse, with exit code 4, also what a check cannot tell from this archive")(
+      "refuse, with exit code 4, also an archive for which a check is undecided")(
       "compression", po::value(&s.storage.compression)->default_value(0)->value_name("LEVEL"),
       "deflate level, 0 to 9")("float32", po::bool_switch(&s.storage.float32),
                                "single precision, half the size")(

@@ -17,15 +17,15 @@ namespace grseg {
 
 /// Where a job that began from an earlier checkpoint writes moments again: whose of them count.
 enum class Repeated {
-  ask,    // those that are the same count once; others are refused
-  first,  // those of the earlier job
-  last    // those of the later job
+  ask,    // moments with equal grains count once; others are refused
+  first,  // moments of the earlier job
+  last    // moments of the later job
 };
 inline constexpr Choice<Repeated> repeated_words[] = {{"first", Repeated::first},
                                                       {"last", Repeated::last}};
-/// Of --grains-are: whether grains are discs.
+/// Words of --grains-are: true for discs.
 inline constexpr Choice<bool> grain_words[] = {{"discs", true}, {"spheres", false}};
-/// Of --origin: whether y = 0 is the top of the base grains.
+/// Words of --origin: true where y = 0 is the top of the base grains.
 inline constexpr Choice<bool> origin_words[] = {{"top", true}, {"centre", false}};
 
 /// The command line of grseg-import. Numbers are in the units of the archive, as in the other

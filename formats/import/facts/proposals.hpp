@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-/// What the first moments of an archive suggest about things that it does not state. This is
-/// proposed to the user, and never assumed.
+/// Proposals from the first moments of an archive for facts that it does not state. They are shown
+/// to the user, and never assumed.
 namespace grseg {
 
-/// Gravity along the archive's axes: of each component the median over the moving grains of (force -
-/// contact forces)/mass. None where forces or masses are missing or contacts are not understood. `mass` is that of each
-/// grain; `resting` may be empty.
+/// Gravity along the archive's axes, each component the median over the moving grains of (force -
+/// contact forces)/mass. None where forces or masses are missing or contacts are not understood.
+/// `mass` holds the mass of each grain; `resting` may be empty.
 std::optional<Vec3> suggested_gravity(const ArchiveMoment& moment, const std::vector<double>& mass,
                                       const std::vector<bool>& resting);
 

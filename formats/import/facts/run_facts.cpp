@@ -54,7 +54,8 @@ std::optional<double> either(const std::optional<double>& archive,
   return given ? given : archive;
 }
 
-/// What is told wins over what masses suggest, but must agree with what the archive states.
+/// True for discs. An option wins over the answer that masses suggest, but must agree with a
+/// statement of the archive.
 std::optional<bool> discs_or_spheres(const ArchiveFacts& archive, const ImportSettings& settings)
 {
   if (!settings.grains) return archive.discs;
@@ -75,7 +76,7 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
   return settings.units || !known ? settings.units : archive.units;
 }
 
-/// UsageError where the masses of the archive are those of another density than --density.
+/// UsageError where the archive's masses follow from another density than --density.
 void require_density(const ArchiveGrains& grains, double density, bool discs)
 {
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -83,7 +84,7 @@ void require_density(const ArchiveGrains& grains, double density, bool discs)
     const double found = grains.mass[g] / content(grains.radius[g], discs);
     if (std::abs(found - density) > 1e-3 * density)
       throw UsageError(fmt::format(
-          "--density is {:g}, but the archive has masses, of a density of {:.6g} (grain {}); leave the "
+          "--density is {:g}, but the masses in the archive make it {:.6g} (grain {}); leave the "
           "option out",
           density, found, grains.id[g]));
   }

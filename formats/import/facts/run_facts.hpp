@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// What holds for the whole of an imported run, in the archive's units, and is never guessed.
+/// Facts of the whole of an imported run, in the archive's units; never guessed.
 struct RunFacts {
   double step = 0;
   int dimension = 2;
@@ -25,7 +25,7 @@ struct RunFacts {
   std::string units_as_given;
 };
 
-/// What facts are found from.
+/// Moments from which facts are found.
 struct FirstLook {
   const ArchiveMoment& all;          // a moment with all grains, perhaps without contacts
   const ArchiveMoment& moment;       // the first one

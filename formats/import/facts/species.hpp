@@ -22,14 +22,15 @@ struct SpeciesSettings {
   std::optional<double> small_diameter, large_diameter;  // nominal
 };
 
-/// Species of every grain, those of mobile grains as a list, and in words how they were found.
+/// Species of every grain, a list of the species of mobile grains, and in words how they were
+/// found.
 struct SpeciesFound {
   std::vector<Species> species;
   SpeciesList list;  // nominal diameters as given, in the archive's units; 0: not given
   std::string base, sizes;
 };
 
-/// Boundary grains are those of the types or ids that were named, or that the archive marks as
+/// Assigns species. Boundary grains have a type or id that was named, or the archive marks them as
 /// fixed; all others are of a named species, or small or large: by type, by --split-diameter, or,
 /// where none is given, by two sizes far apart: the widest step between diameters is a factor of
 /// 1.2 or more, and on either side of it they differ by less than the root of that factor.

@@ -135,7 +135,8 @@ class Dumped {
   }
   /// How many are of the compute.
   std::size_t count() const { return count_; }
-  /// Whether they may be of a compute of so many columns: of all, or of a selection by name.
+  /// True for the number of columns that a compute has with these keywords: with all, or with a
+  /// selection by name.
   bool fits(std::size_t columns) const
   {
     const auto last = numbered_ ? *std::max_element(numbers_.begin(), numbers_.end()) : count_;
@@ -148,7 +149,7 @@ class Dumped {
   bool numbered_ = false;
 };
 
-/// Whether the ids and the force of both mappings are the same columns.
+/// True where the ids and the force of both mappings are in equal columns.
 bool are_at_the_same_places(const std::string& keywords, const std::string& named,
                             const DumpHeader& contacts)
 {

@@ -21,13 +21,13 @@ namespace grseg {
 /// or force missing or not dumped, another number of columns.
 std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
 
-/// The same of `compute wall/gran/local` as a mapping of WallRows: pos holds contact point and grain, id
-/// mesh, triangle and grain, and force is that on the grain. "" is pos,id,force, which is needed.
+/// A mapping of WallRows for `compute wall/gran/local`: pos holds contact point and grain, id mesh,
+/// triangle and grain, and force acts on the grain. "" is pos,id,force, which is needed.
 std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& walls);
 
-/// Whether columns are those of pair/gran/local: all of one compute, c_cp[1] c_cp[2] ..., while LAMMPS
-/// takes two, for ids and forces; or named after what LIGGGHTS alone has, the positions of both grains
-/// or whether they touch across a period.
+/// True for columns of pair/gran/local: all of one compute, c_cp[1] c_cp[2] ..., while LAMMPS takes
+/// two, for ids and forces; or with a name that LIGGGHTS alone uses, for the positions of both
+/// grains or a contact across a period.
 bool are_of_liggghts(const std::vector<std::string>& columns);
 
 /// Presets and lists of keywords that have as many columns as the header.

@@ -35,7 +35,7 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
     if (!period_is_known && distance > 1.1 * (grains.radius[i] + grains.radius[j]))
       fail_at(rows, row,
               fmt::format("grains {} and {} touch across a periodic boundary, or are from another "
-                          "run; give --restart, which says what is periodic",
+                          "run; give --restart, which names the periodic directions",
                           row.i, row.j));
   }
   moment.contacts.add(grains.id[i], grains.id[j], wall ? static_cast<std::int32_t>(-row.j - 1) : -1,
@@ -59,7 +59,7 @@ Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
   if (!normal || kind != "InfiniteWall")
     throw FormatError(
         fmt::format("is with wall {} ({}), but does not name the contact point: restart files "
-                    "before 2016 do not, and only that of an InfiniteWall follows from the file; "
+                    "before 2016 do not, and it follows from the file for an InfiniteWall alone; "
                     "give the .data and .fstat of the run as well",
                     row.j, kind));
   return -normal->dot(position - x) * *normal;
@@ -84,7 +84,7 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
                       grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
 }
 
-/// The contacts of a block of .fstat, whose rows of grains are those of `moment`:
+/// Adds the contacts of a block of .fstat, whose rows of grains refer to `moment`:
 /// * Force on i = fn n + ft t, n from j to i; at a wall n and t have the opposite signs.
 /// * Most pairs stand in two rows, (i, j) and (j, i), those with a fixed grain or across a periodic
 ///   boundary in one: the first row is used, with its whole force.
@@ -107,8 +107,8 @@ void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, Archiv
   }
 }
 
-/// The contacts of the block Interactions, between grains of `moment` by their ids. Overlap and
-/// branch of two grains are those of their positions.
+/// Adds the contacts of the block Interactions, between grains of `moment` by their ids. Overlap
+/// and branch of two grains follow from their positions.
 void add_mercury_contacts(const MercuryRestart& restart, ArchiveMoment& moment)
 {
   const auto row_of = rows_by_id(moment.grains);
@@ -125,7 +125,7 @@ constexpr const char* info_is_species = "info=species";
 
 class MercuryArchive : public Archive {
  public:
-  /// The contacts are those of the .restart files that hold the grains where there is no .fstat.
+  /// Where there is no .fstat, the .restart files with the grains hold the contacts, too.
   MercuryArchive(std::unique_ptr<MercuryGrains> grains, std::vector<std::string> fstat)
       : grains_(std::move(grains))
   {
@@ -191,7 +191,7 @@ FileRole role_of(const FileStart& start)
   constexpr std::pair<const char*, FileRole> endings[] = {
       {".data", FileRole::grains}, {".fstat", FileRole::contacts}, {".restart", FileRole::restart}};
   const auto name = start.name.substr(0, start.name.find_last_not_of(".0123456789") + 1);
-  // Of versions 2 and 3 it stands for .data.
+  // A .restart of version 2 or 3 stands for .data.
   const bool positional =
       !start.lines.empty() && (start.lines[0].starts_with("restart_version 2") ||
                                start.lines[0].starts_with("restart_version 3"));
@@ -231,7 +231,7 @@ std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
   if (!of_restart || !files.contacts.empty())
     contacts = archive_files(files.contacts, "--contacts");
   if (of_restart) return archive_of(std::make_unique<MercuryRestarts>(grains), contacts);
-  // Of many, the last lists all grains that were ever inserted.
+  // The last of many lists all grains that were ever inserted.
   const auto restart =
       files.restart.empty() ? files.restart : archive_files({files.restart}, "--restart").back();
   return archive_of(

@@ -168,7 +168,7 @@ Particle named_particle(const MercuryLines& lines)
   return particle;
 }
 
-/// Whether `rest` is `before` numbers and then n springs of `size` numbers, n being its `at`-th.
+/// True where `rest` is `before` numbers and then n springs of `size` numbers, n being its `at`-th.
 bool has_springs(const std::vector<double>& rest, std::size_t at, std::size_t before, double size)
 {
   return at < rest.size() && static_cast<double>(rest.size() - before) == rest[at] * size;
@@ -277,7 +277,7 @@ void read_of_run(const MercuryLines& lines, MercuryRestart& restart)
         "CombineParallelRestartFiles.py of MercuryDPM's Tools");
 }
 
-/// Of the species that are mentioned in turn with their mixtures with those before.
+/// True for a mixed species, which MercuryDPM lists after the two species it joins.
 bool is_mixture(const MercuryLines& lines)
 {
   return lines.kind().find("Mixed") != std::string_view::npos || lines.has("(mixed)");

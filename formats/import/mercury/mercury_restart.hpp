@@ -16,11 +16,11 @@ inline Vec3 three(const std::vector<double>& numbers, std::size_t first)
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
-/// What a .restart of MercuryDPM states. Three versions are in use:
+/// The content of a .restart of MercuryDPM. Three versions are in use:
 ///   MercuryDPM, with any version of the program (since 2018), and restart_version 1.0 (before):
-///       words and values in turn, a line per object (DPMBase::write); the last block, Interactions, holds the contacts. Written at
-///       the beginning of a time step: forces are those of the positions, and of velocities half a
-///       step before.
+///       words and values in turn, a line per object (DPMBase::write); the last block, Interactions,
+///       holds the contacts. Written at the beginning of a time step: forces belong to the positions,
+///       and to velocities half a step before.
 ///   restart_version 3 and 2 (until 2013): grains as rows of numbers, without ids and contacts.
 struct MercuryRestart {
   struct Particle {
@@ -31,7 +31,7 @@ struct MercuryRestart {
     Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
     Vec3 force = Vec3::Zero();  // with gravity; not in versions 3 and 2
   };
-  /// Of a particle with another, or with a wall.
+  /// A contact of a particle with another, or with a wall.
   struct Interaction {
     std::int64_t i = 0, j = 0;  // ids
     bool wall = false;          // j is one
@@ -59,7 +59,7 @@ struct MercuryRestart {
   /// Rows are ids where no grain has ever been removed.
   bool ids_are_rows() const;
   bool discs() const { return particle_dimensions == 2; }
-  /// Of a fixed grain by its density.
+  /// Mass of a particle; of a fixed one by its density.
   double mass_of(const Particle& particle) const;
 };
 
@@ -70,7 +70,7 @@ enum class MercuryBlocks { up_to_particles, all };
 /// the line where it is damaged, or has grains or periods that cannot be imported.
 MercuryRestart read_mercury_restart(const std::string& path, MercuryBlocks blocks);
 
-/// Whether the file begins as a .restart does.
+/// True where the file begins as a .restart does.
 bool is_mercury_restart(const std::string& path);
 
 }  // namespace grseg

@@ -56,7 +56,7 @@ class MercuryData : public MercuryGrains {
 };
 
 /// A series of .restart files, each a moment with everything but, in versions 3 and 2, forces on
-/// grains. Ids are those of the program, which it never uses twice.
+/// grains. Ids are the program's, which it never uses twice.
 class MercuryRestarts : public MercuryGrains {
  public:
   explicit MercuryRestarts(std::vector<std::string> files);

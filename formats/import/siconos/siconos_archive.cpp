@@ -342,7 +342,7 @@ class SiconosArchive : public Archive {
   std::unordered_map<std::int64_t, Points::Row> previous_points_;
   std::size_t left_out_ = 0;
 
-  // Of the moment at hand.
+  // Rows of the moment at hand.
   std::vector<Places::Row> place_rows_;
   std::vector<Velocities::Row> velocity_rows_;
   std::vector<Points::Row> point_rows_;

@@ -46,7 +46,7 @@ class TableInTime {
     table_.require(1, columns);
   }
 
-  /// Of the next row; empty at the end.
+  /// Time of the next row; empty at the end.
   std::optional<double> time()
   {
     if (at_ == block_.size() && !fill()) return {};

@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-/// What the verification of an import finds. Every check has a name, by which it can be waived.
+/// Findings of the verification of an import. Every check has a name, by which it can be waived:
 ///
 ///   contacts      they join grains that touch, and each is listed once
 ///   completeness  grains that overlap are listed, and none are parts of one body
 ///   overlap       they are not too deep
 ///   pull          they push rather than pull
 ///   balance       they add up to the force on each grain
-///   gravity       the weight of the grains is that of gravity as given
+///   gravity       the weight of the grains is their mass times gravity as given
 ///   masses        small and large grains weigh what their masses say
 ///   sizes         small grains are smaller than large ones
 ///   time          displacements are velocity times time
@@ -37,7 +37,7 @@ struct Finding {
   double measure = 0;  // what --accept-residual NAME=R is compared with
 };
 
-/// What --accept-residual has accepted: the largest measure of each check that is named.
+/// Values of --accept-residual: the largest accepted measure of each check that is named.
 class Waivers {
  public:
   Waivers() = default;
@@ -70,12 +70,12 @@ struct SpeciesSizes {
   double nominal = 0, mean = 0, smallest = 0, largest = 0;
 };
 
-/// What of an imported run the checks are about; everything is in its file.
+/// Facts of an imported run that the checks need; everything is in its file.
 struct CheckContext {
   int dimension = 2;
   bool has_force = true;
   Vec3 gravity = Vec3::Zero();        // as given, m/s^2, in the axes of the flow
-  std::array<Vec3, 3> axes;           // of the flow, in those of the archive
+  std::array<Vec3, 3> axes;           // of the flow, as vectors in the archive's axes
   Units units;                        // of the archive
   double step = 0;                    // s
   double frame_interval = 0;          // s, as given; 0: it is not
@@ -92,8 +92,8 @@ struct CheckContext {
   Waivers waivers;
 };
 
-/// The context from what the file of an imported run says. FormatError naming `file` where it is not
-/// that of an import that can be judged.
+/// The context from the parameters in the file of an imported run. FormatError naming `file` where
+/// it is no import that can be judged.
 CheckContext check_context(const Grains& grains, const SpeciesList& species,
                            const Parameters& parameters, bool has_force,
                            const std::string& file = "");

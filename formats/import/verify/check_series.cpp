@@ -52,7 +52,8 @@ void visit_numbers(Moment& moment, const Visit& visit)
 
 /// Text of six digits rounds contact forces by this fraction.
 constexpr double digits = 1e-6;
-/// Of the squares of y, what a line may leave over, and the fewest grains that it is drawn through.
+/// Largest part of the squares of y that a line may leave over, and the fewest grains that it is
+/// drawn through.
 constexpr double largest_rest = 0.1, fewest_grains = 3;
 
 struct Weighted {
@@ -103,7 +104,7 @@ Estimate from_medians(const std::vector<Weighted>& values, double squared_within
   return estimate;
 }
 
-/// What `find` finds of both halves of the series, where they `differ`.
+/// The findings of `find` in both halves of the series, where they `differ`.
 template <class Find, class Differ>
 auto differing_halves(const CheckSeries& series, const Find& find, const Differ& differ)
 {

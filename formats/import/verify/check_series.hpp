@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-/// What the checks of an import remember of each moment: numbers that are stored with every frame as
+/// The memory that the checks of an import have of each moment: numbers, stored with every frame as
 /// observables `check_...`, so that findings can be computed again from the file alone. Where the
 /// number of grains of a group is 0, the rest of the group is 0 and says nothing.
 namespace grseg {
@@ -43,9 +43,10 @@ struct CheckMoment {
   std::int64_t step = 0;
   double time = 0;  // s
 
-  // Of contacts that bear a force, in units of the smaller radius: the largest difference between
-  // the distance that the archive states and that of the positions, the widest gap beyond what the
-  // two may part in a step, the deepest overlap. Fraction of the normal force that pulls.
+  // Contacts that bear a force, in units of the smaller radius: the largest difference between the
+  // distance that the archive states and the distance of the positions, the widest gap beyond the
+  // way that the two may part in a step, the deepest overlap. Fraction of the normal force that
+  // pulls.
   double distance = 0, gap = 0, overlap = 0, pull = 0;
 
   /// Pairs that overlap and have no contact: the deepest overlap in units of the smaller radius, and
@@ -56,20 +57,20 @@ struct CheckMoment {
   /// Part of the mobile grains that move as one body with a neighbour they have no contact with.
   double rigid = 0;
 
-  /// By how much the force on a grain is missed, over the largest force; of how many grains: 0 where
-  /// it could not be judged.
+  /// Largest force that is missing on a grain, over the largest force; number of grains: 0 where it
+  /// could not be judged.
   double balance = 0, balance_grains = 0;
-  /// The same of the grain that misses most. Between moments that are close together, but not one
-  /// step apart, a few grains may have collided: then `balance` is that of the median grain.
+  /// Force missing on the grain that misses most. Between moments that are close together, but not
+  /// one step apart, a few grains may have collided: then `balance` belongs to the median grain.
   double balance_worst = 0;
   /// Without forces on grains: how much the contact forces on a grain have changed since the moment
   /// before, over their size; medians. 0 where one follows the other step by step.
   double change = 0;
   /// Median over grains of the sum of sizes of contact forces over the mass, m/s^2.
   double acceleration = 0;
-  /// Of all mobile grains, and of the smaller and the larger ones.
+  /// Gravity found from all mobile grains, from the smaller and from the larger ones.
   GravityEstimate all, smaller, larger;
-  /// Whether these are medians over grains (1), or sums over all grains (0).
+  /// 1 where these are medians over grains, 0 where they are sums over all grains.
   double medians = 0;
 
   SlopeSums motion;  // x: velocity times time, y: displacement, in mean diameters
@@ -105,24 +106,24 @@ inline constexpr std::size_t fewest_pairs = 8;
 std::optional<Estimate> gravity_from(const CheckSeries& series,
                                      GravityEstimate CheckMoment::*which);
 
-/// What is true of the first half of the moments and of the second.
+/// Values in the first half of the moments and in the second.
 template <class Value>
 using Halves = std::pair<Value, Value>;
 
-/// Where gravity differs between the halves: by more than five standard errors and more than
+/// Both values of gravity, where they differ by more than five standard errors and more than
 /// `tolerance` (m/s^2).
 std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance);
 
-/// k of y = k x, its standard error, and by how much noise in x may have lowered it: the part of the
-/// squares of y that the line leaves over.
+/// k of y = k x, its standard error, and the largest fraction by which noise in x may have lowered
+/// it: the part of the squares of y that the line leaves over.
 struct Slope {
   double value = 0, error = 0, doubt = 0;
   double grains = 0;
-  /// By how much it may be off: five standard errors and the doubt.
+  /// Largest possible error of the value: five standard errors and the doubt.
   double uncertainty() const { return 5 * error + doubt * value; }
 };
-/// By how much a slope may differ from 1, beside its uncertainty, and how uncertain one may be that
-/// passes: one that is off by half is then refused.
+/// Largest accepted deviation of a slope from 1, in addition to its uncertainty; and largest
+/// uncertainty of an accepted slope: one that is off by half is then refused.
 inline constexpr double slope_tolerance = 0.1, sharp_slope = 0.5 - slope_tolerance;
 
 /// Nothing where too little moves or where more than a tenth of the squares is left over.

@@ -17,12 +17,12 @@
 namespace grseg {
 namespace {
 
-/// Of what is missing, the part that a cause has to explain.
+/// Least part of the missing forces that a cause has to explain.
 constexpr double most = 0.8;
 /// In units of the radius: how near to a face of the bed a grain lies that touches it, and from
 /// where on an overlap is deep.
 constexpr double at_face = 0.3, deep = 0.1;
-/// What is missing of a contact with a wall is along its normal at least by this part: friction
+/// The missing force of a contact with a wall is along its normal at least by this part: friction
 /// coefficients up to 1.7.
 constexpr double along_normal = 0.5;
 
@@ -83,7 +83,7 @@ std::string missing_walls(const Grains& grains, const Box& box, const Frame<3>& 
     missing += imbalance.defect[g].norm();
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const auto& side = sides[s];
-      // What is missing pushes away from the side: the opposite of the defect.
+      // A missing force pushes away from the side: the opposite of the defect.
       const double push = (side.upper ? 1 : -1) * imbalance.defect[g][side.axis];
       if (reach(grains, frame, g, side) < side.position - at_face * grains.radius[g] ||
           push < along_normal * imbalance.defect[g].norm())
@@ -137,7 +137,7 @@ std::size_t deeply_overlapping(const Grains& grains, const ContactList<3>& conta
                                                 [&](std::size_t g) { return is_deep[g]; }));
 }
 
-/// Of the squares of what is missing, the part that a cause has to explain.
+/// Least part of the squares of the missing forces that a cause has to explain.
 constexpr double most_squares = 0.95;
 /// Grains that tell a drag from chance.
 constexpr double fewest_dragged = 3;
@@ -218,17 +218,17 @@ std::string text_of(const Grains& grains, const std::vector<PairForce>& pairs)
   const auto id = [&](std::int32_t row) { return grains.id[static_cast<std::size_t>(row)]; };
   if (pairs.size() == 1 && pairs[0].pushes)
     return fmt::format(
-        "; what is missing acts between grains {} and {}, which touch: their contact is missing",
+        "; the missing force acts between grains {} and {}, which touch: their contact is missing",
         id(largest->pair.i), id(largest->pair.j));
   const double nearest = gaps.first->pair.gap, farthest = gaps.second->pair.gap;
   return fmt::format(
-      "; what is missing acts along {} pairs without a listed force, opposite on the two grains, {:.2g} to "
-      "{:.2g} of the smaller radius apart (the largest: grains {} and {}): {}",
+      "; the missing forces act between {} pairs without a listed force, {:.2g} to {:.2g} of the "
+      "smaller radius apart, opposite on the two grains (the largest: grains {} and {}): {}",
       pairs.size(), nearest, farthest, id(largest->pair.i), id(largest->pair.j),
       all_pull
           ? "contacts that pull, also beyond touch, are not listed; write them, too"
-          : "bonds, or another interaction, act between grains, and their stress is not that of the "
-            "listed contacts");
+          : "bonds, or another interaction, act between grains, and the listed contacts lack their "
+            "stress");
 }
 
 /// k of the drag -k x on each grain that leaves the least of what is missing on the grains that do not
@@ -302,8 +302,8 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& f
     const Vec3 &a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
     if ((a + b).norm() < 0.1 * (a.norm() + b.norm()))
       return fmt::format(
-          "; what is missing on grain {} is the opposite of that on grain {}: their contact is missing, "
-          "or has a row too many",
+          "; the missing forces on grains {} and {} are opposite: their contact is missing, or has a "
+          "row too many",
           grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
   }
   const auto walls = missing_walls(grains, box, frame, imbalance, unbalanced, axes);
@@ -336,7 +336,7 @@ UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame
     const auto [factor, explained] = drag_along(x, grains, frame, imbalance);
     if (explained < most_squares || factor <= 0) continue;
     return {
-        fmt::format("; what is missing is {:.4g} times the {} of each grain, against it: {}",
+        fmt::format("; the missing force is {:.4g} times the {} of each grain, and opposes it: {}",
                     factor, name,
                     as_weight ? "a drag on all grains, or another gravity, which cannot be told "
                                 "apart where grains move alike"

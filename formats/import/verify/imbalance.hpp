@@ -16,14 +16,15 @@ struct AxisInArchive {
   double shift = 0;
 };
 
-/// Grains that do not balance: by how much, N (contact forces + m g - force), and from where on.
+/// Grains that do not balance: the defect of each, N (contact forces + m g - force), and the size
+/// from which on it counts.
 struct Imbalance {
   const std::vector<Vec3>& defect;
   double limit = 0;
 };
 
-/// What the archive itself shows of why grains do not balance, as part of a sentence, "" where it
-/// shows nothing: most of them lie at a face of the bed, away from which they are pushed (a wall is
+/// The cause, visible in the archive itself, why grains do not balance, as part of a sentence, ""
+/// where none is: most of them lie at a face of the bed, away from which they are pushed (a wall is
 /// missing); all contact forces are along their normals (the tangential part is missing); they
 /// overlap deeply (a bed that is being filled).
 std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
@@ -46,7 +47,7 @@ UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame
 /// (LAMMPS: Pair::single()). Damping then differs, and grains do not balance, by
 ///   c m_eff (a_i - a_j) h/2 per contact, along the normal and, where it does not slide, the
 ///   tangent,
-/// with coefficients c_n and c_t (1/s) that are those of gran/hooke's gamma_n and gamma_t. m_eff is
+/// with coefficients c_n and c_t (1/s), the gamma_n and gamma_t of gran/hooke. m_eff is
 /// m_i m_j/(m_i + m_j), at a boundary grain m_i; a is the acceleration, of the rims along the
 /// tangent.
 struct LateDamping {

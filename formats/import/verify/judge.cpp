@@ -101,7 +101,7 @@ Finding judge_balance(const CheckSeries& series, const CheckContext& context)
                             measure, moments, moments == 1 ? "moment" : "moments"));
 }
 
-/// By how much a nominal diameter may lie outside those of the grains.
+/// Largest factor by which a nominal diameter may lie outside the diameters of its grains.
 constexpr double largest_factor = 1.5;
 
 std::string named(const SpeciesSizes& species)
@@ -174,21 +174,22 @@ Finding judge_sizes(const CheckContext& context)
         std::max(species.smallest / species.nominal, species.nominal / species.largest);
     if (species.nominal > 0 && factor > largest_factor)
       return failed(
-          fmt::format("the nominal diameter of {}, {:.4g}, is far from those of its grains, {:.4g} "
-                      "to {:.4g}: is it that of another species, or in other units?",
-                      named(species), species.nominal / length, species.smallest / length,
-                      species.largest / length),
+          fmt::format(
+              "the nominal diameter of {}, {:.4g}, is far from the diameters of its grains, "
+              "{:.4g} to {:.4g}: does it belong to another species, or is it in other units?",
+              named(species), species.nominal / length, species.smallest / length,
+              species.largest / length),
           factor - 1);
   }
   for (std::size_t k = 0; k + 1 < all.size(); ++k)
     if (!(all[k].mean < all[k + 1].mean))
-      return failed(fmt::format("the mean diameter of {} is {:.4g}, and that of {} is {:.4g}: {}",
+      return failed(fmt::format("the mean diameter of {} is {:.4g}, and of {} {:.4g}: {}",
                                 named(all[k]), all[k].mean / length, named(all[k + 1]),
                                 all[k + 1].mean / length, exchange(all[k], all[k + 1])),
                     all[k].mean / all[k + 1].mean - 1);
   for (std::size_t k = 0; k + 1 < all.size(); ++k)
     if (all[k].nominal > all[k + 1].nominal)
-      return failed(fmt::format("the nominal diameter of {} is {:.4g}, and that of {} is {:.4g}: "
+      return failed(fmt::format("the nominal diameter of {} is {:.4g}, and of {} {:.4g}: "
                                 "exchange the two diameters",
                                 named(all[k]), all[k].nominal / length, named(all[k + 1]),
                                 all[k + 1].nominal / length),

@@ -20,9 +20,9 @@ Finding judge_masses(const CheckSeries& series, const CheckContext& context,
 Finding judge_sizes(const CheckContext& context);
 Finding judge_time(const CheckSeries& series, const CheckContext& context);
 
-/// In units of the smaller radius: by how much a distance may differ from radii and overlap (digits
-/// of the text), how far apart grains that bear a force may be beyond what they may part in a step, and
-/// how deep they may overlap.
+/// Limits in units of the smaller radius: the difference between a distance and the sum of radii
+/// and overlap (digits of the text), the gap of grains that bear a force, beyond the way that they
+/// may part in a step, and the overlap.
 inline constexpr double largest_distance = 0.01, widest_gap = 0.05, deepest_overlap = 0.3;
 /// Part of the mobile grains that may seem to belong to rigid bodies, by chance; and what the
 /// measure of completeness then is. Otherwise it is the overlap of pairs that are not listed, over
@@ -35,11 +35,11 @@ inline constexpr double largest_pull = 0.2;
 /// were not seen one step apart.
 inline constexpr double farthest = 3;
 
-/// Without forces on grains, two moments are close together where the contact forces on a grain have
-/// changed by less than this fraction of their size. The mean over the time between them then
-/// differs by at most half of the change from that of the two moments, as long as they change one
-/// way. That no grain has met another in between is only sure where none can have moved by more
-/// than this fraction of its radius.
+/// Without forces on grains, two moments are close together where the contact forces on a grain
+/// have changed by less than this fraction of their size. The mean over the time between them then
+/// differs by at most half of the change from the mean of the two moments, as long as they change
+/// one way. No grain can have met another in between where none can have moved by more than this
+/// fraction of its radius.
 inline constexpr double close_together = 0.1;
 
 }  // namespace grseg

@@ -17,7 +17,7 @@ namespace {
 /// either side.
 constexpr double three_degrees = 0.0523, tolerance = three_degrees / 2, sharp = tolerance / 3;
 
-/// What differs by less is the digits of --gravity.
+/// Smaller differences come from the digits of --gravity.
 constexpr double smallest_difference = 1e-3;
 
 /// Where contacts accelerate grains by a hundred times more than gravity, gravity does not matter.
@@ -58,7 +58,7 @@ double median_acceleration(const CheckSeries& series)
   return median(values);
 }
 
-/// What on the command line would agree with the archive.
+/// Options of the command line that would agree with the archive.
 std::string remedy(const CheckContext& context, const Estimate& estimate)
 {
   const Vec3& found = estimate.value;
@@ -78,7 +78,7 @@ std::string remedy(const CheckContext& context, const Estimate& estimate)
   if (same_way && std::isfinite(ratio))
     ways.push_back(fmt::format(
         "masses are {:.3g} times {}", ratio,
-        context.masses_are_given ? "what --density makes them" : "those that the archive states"));
+        context.masses_are_given ? "the masses by --density" : "the masses in the archive"));
   ways.emplace_back(estimate.medians
                         ? "a force that is not listed acts on all grains, such as a drag"
                         : "contacts with the base or a wall are missing");
@@ -122,8 +122,8 @@ Finding part(Verdict verdict, const std::string& sentence, double measure = 0)
   return {"masses", verdict, sentence, measure};
 }
 
-/// The weight over the mass, of smaller grains over that of larger ones. Spheres for discs make it
-/// the ratio of their sizes: what is nearer to that than to 1 is called wrong.
+/// Compares weight over mass between smaller and larger grains. Spheres for discs make this ratio
+/// the ratio of sizes: a value nearer to that than to 1 is called wrong.
 Finding by_size(const CheckSeries& series, const CheckContext& context)
 {
   if (!(context.size_ratio > 1)) return part(Verdict::undecided, "all grains have one size");
@@ -138,7 +138,7 @@ Finding by_size(const CheckSeries& series, const CheckContext& context)
   const double error = std::hypot(smaller->error / light, larger->error / heavy);
   const double wrong = std::log(context.size_ratio), off = std::abs(std::log(ratio));
   const auto sentence = fmt::format(
-      "the weight over the mass of smaller grains is {:.4g} times that of larger ones, "
+      "weight over mass of smaller grains is {:.4g} times that of larger ones, "
       "with a standard error of {:.2g}",
       ratio, error);
   if (!std::isfinite(off) || !std::isfinite(error))
@@ -149,8 +149,7 @@ Finding by_size(const CheckSeries& series, const CheckContext& context)
         sentence + (context.masses_are_given
                         ? ": are they discs rather than spheres, or spheres rather than discs "
                           "(--grains-are)? Or do their densities differ?"
-                        : ": the masses that the archive states are not those that its grains "
-                          "had"),
+                        : ": the archive states other masses than its grains had"),
         std::abs(ratio - 1));
   if (off <= wrong / 2 && 3 * error <= wrong / 2)
     return part(Verdict::passed, sentence, std::abs(ratio - 1));
@@ -180,12 +179,12 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
   if (off > slope_tolerance + unsure)
     return part(
         Verdict::failed,
-        fmt::format("{}: either masses are {:.3g} times {}, or the time step is {:.3g} times "
-                    "as long",
-                    sentence, slope->value,
-                    context.masses_are_given ? "what --density makes them"
-                                             : "those that the archive states",
-                    1 / slope->value),
+        fmt::format(
+            "{}: either masses are {:.3g} times {}, or the time step is {:.3g} times "
+            "as long",
+            sentence, slope->value,
+            context.masses_are_given ? "the masses by --density" : "the masses in the archive",
+            1 / slope->value),
         off);
   if (off <= slope_tolerance && unsure <= sharp_slope) return part(Verdict::passed, sentence, off);
   return part(Verdict::undecided, sentence + ", which is too much to tell", off);
@@ -260,8 +259,8 @@ Finding judge_masses(const CheckSeries& series, const CheckContext& context, con
                   relative.sentence + "; their weight agrees with gravity as given");
   return answer(
       Verdict::undecided,
-      "they come from --density, and of the archive only the weight, mass times gravity, is known: "
-      "a density and a gravity that are both wrong could not be told; " +
+      "they come from --density, and the archive shows the weight, mass times gravity, alone: a "
+      "density and a gravity that are both wrong could not be told; " +
           relative.sentence);
 }
 

@@ -10,10 +10,10 @@
 namespace grseg {
 namespace {
 
-/// What changes by less than this fraction between two moments is taken for steady: then its mean of
-/// the two is that over the time between them to half of it.
+/// A force that changes by less than this fraction between two moments is taken for steady: then
+/// its mean of the two differs by at most half of it from the mean over the time between them.
 constexpr double steady = 0.2;
-/// By how much the change of velocity in free flight may deviate from the force's direction, as a
+/// Largest deviation of the change of velocity in free flight from the force's direction, as a
 /// sine.
 constexpr double along = 0.05;
 /// A bed at rest swings to and fro, by less than its grains overlap, and may be seen in any phase:
@@ -22,7 +22,7 @@ constexpr double along = 0.05;
 /// half of a collision.
 constexpr double has_moved = 0.1;
 constexpr std::int64_t no_swing = 10;
-/// Of a period, how far a grain may move where images of positions are missing.
+/// Part of a period that a grain may move where images of positions are missing.
 constexpr double share_of_period = 0.25;
 /// From the median absolute deviation to the standard deviation of a normal distribution, and from
 /// that to the standard error of its median times the root of the number of values.
@@ -95,8 +95,8 @@ bool MomentStatistics::is_in(Group group, std::size_t grain) const
   return split_ > 0 && (grains_.radius[grain] >= split_) == (group == Group::larger);
 }
 
-/// What of the motion of every grain its contacts do not explain, over its mass: gravity. NaN where
-/// it cannot be known or where a wall takes part.
+/// The force in the motion of every grain that its contacts do not explain, over its mass: gravity.
+/// NaN where it cannot be known or where a wall takes part.
 auto MomentStatistics::weights(const Frame<3>& frame, const Vectors& sums,
                                const std::optional<MomentBefore>& before) const -> Vectors
 {

@@ -14,7 +14,7 @@ struct MomentBefore : Frame<3> {
   std::vector<Vec3> sums;  // contact forces on each grain
 };
 
-/// Sum of the contact forces on each grain if `forces` are those of the contacts.
+/// Sum of the contact forces on each grain; `forces` has an entry for each contact.
 std::vector<Vec3> contact_sums(std::size_t grains, const ContactList<3>& contacts,
                                const std::vector<Vec3>& forces);
 

@@ -140,8 +140,8 @@ constexpr double same_motion = 1e-4;
 
 constexpr double errors = 3, part_of_median = 0.25;
 
-/// Whether two grains move as one body: with the same spin and with the velocities that it makes.
-/// Without any spin, if they are `joined`: whether they move, but not along their branch.
+/// True where two grains move as one body: with equal spins and with the velocities that these
+/// make. Without any spin, if they are `joined`: true where they move, but not along their branch.
 bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
 {
   const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
@@ -157,9 +157,9 @@ bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, b
   return (relative - turning).norm() <= same_motion * spin * branch.norm();
 }
 
-/// Whether normal forces grow with overlaps, as a rank correlation. Per moment it was 0.79 to 1 in
-/// archives of soft grains (LAMMPS, LIGGGHTS, YADE) and 0.04 to 0.66 in runs of contact dynamics,
-/// where overlaps are what earlier steps have left; 100 contacts know it to 0.1.
+/// True where normal forces grow with overlaps, by their rank correlation. Per moment it was 0.79
+/// to 1 in archives of soft grains (LAMMPS, LIGGGHTS, YADE) and 0.04 to 0.66 in runs of contact
+/// dynamics, where overlaps are left over from earlier steps; 100 contacts know it to 0.1.
 bool forces_grow_with_overlaps(const ContactList<3>& contacts)
 {
   constexpr double soft = 0.75;

@@ -30,7 +30,7 @@ class ListedPairs {
  public:
   using Pair = std::pair<std::int32_t, std::int32_t>;
 
-  /// With `pushing_only`, those that bear a force.
+  /// With `pushing_only`, only pairs that bear a force.
   explicit ListedPairs(const ContactList<3>& contacts, bool pushing_only = false);
 
   bool contains(std::int32_t i, std::int32_t j) const;
@@ -42,24 +42,24 @@ class ListedPairs {
   std::vector<std::int32_t> lower_;  // the other rows of its pairs, lower than its own, sorted
 };
 
-/// What the list of contacts of a moment leaves out. Pairs are those near_pairs() finds.
+/// Pairs that near_pairs() finds and the list of contacts of a moment leaves out.
 struct UnlistedPairs {
-  bool forces_grow = false;  // with the overlap, as those of soft grains: then none may be unlisted
+  bool forces_grow = false;  // with the overlap, as in soft grains: then none may be unlisted
   /// Pairs without a row that overlap by more than the positions' errors, the deepest first.
   std::vector<NearPair> unlisted;
   std::size_t at_boundary = 0;  // of these, how many join a mobile grain and a boundary grain
-  /// Pairs without a row that share their spin and move as one body with it. Where spins are 0: those
-  /// of `unlisted` that move and keep their distance.
+  /// Pairs without a row that share their spin and move as one body with it. Where spins are 0:
+  /// pairs of `unlisted` that move and keep their distance.
   std::vector<NearPair> rigid;
   double rigid_grains = 0;  // part of the mobile grains that belong to these
 
   double deepest() const { return unlisted.empty() ? 0 : -unlisted.front().gap; }
 };
 
-/// Compares the grains that overlap with those that have a row. `error`: by how much distances from
-/// positions may be wrong, over the smaller radius. What overlaps by three times this, and by a
-/// quarter of the median of the pairs with a row, must have one, too: larger errors of positions
-/// would show as gaps of these.
+/// Compares the grains that overlap with the pairs that have a row. `error`: largest error of
+/// distances from positions, over the smaller radius. A pair that overlaps by three times this, and
+/// by a quarter of the median of the pairs with a row, must have one, too: larger errors of
+/// positions would show as gaps of these.
 UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Frame<3>& frame,
                                 const ListedPairs& listed, double error);
 

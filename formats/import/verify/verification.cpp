@@ -212,7 +212,7 @@ auto Verification::sums_as(const Frame<3>& frame, const Reading& reading) const 
   return sums;
 }
 
-/// By how much a grain can have moved since the moment before, by its faster velocity, in radii.
+/// Longest way of a grain since the moment before, by its faster velocity, in radii.
 double Verification::longest_path(const Frame<3>& frame) const
 {
   double longest = 0;
@@ -241,7 +241,8 @@ double Verification::too_far(const Frame<3>& frame) const
   return way > 1e-3 ? way / allowed : 0;
 }
 
-/// That two moments are one step apart is believed where grains have not moved farther than that.
+/// Complains of two moments with consecutive steps between which grains have moved farther than
+/// their velocities allow.
 std::optional<Complaint> Verification::distance_moved(const Frame<3>& frame) const
 {
   if (!before_ || frame.step != before_->step + 1) return std::nullopt;
@@ -308,9 +309,9 @@ std::optional<Residual> Verification::residual_with(const Frame<3>& frame, const
   return residual;
 }
 
-/// A mean force over a short time differs from that of the two moments by half of their difference
-/// at most. Over more steps a few grains may have collided meanwhile, but not the median one of those
-/// in contact.
+/// The mean force over a short time differs from the mean of the two moments by half of their
+/// difference at most. Over more steps a few grains may have collided meanwhile, but not the median
+/// one of the grains in contact.
 void Verification::judge_by_velocities(const Frame<3>& frame, const Sums& sums,
                                        const Forces& defect, double scale, Residual& residual) const
 {

@@ -24,11 +24,11 @@ struct Residual {
   double largest = 0, median = 0;
   std::size_t grain = 0;            // row of the largest
   double unexplained = 0;           // the largest after late damping is subtracted
-  double worst = 0;                 // where `unexplained` is that of the median grain: the largest
+  double worst = 0;                 // the largest, where `unexplained` belongs to the median grain
   std::optional<LateDamping> late;  // where that was looked for
 };
 
-/// What is wrong with a frame, as a sentence about the reading of its archive.
+/// An error of a frame, as a sentence about the reading of its archive.
 struct Complaint {
   std::string check;  // check_context.hpp
   std::string sentence;
@@ -36,7 +36,7 @@ struct Complaint {
   bool spoils_gravity = false;  // what the grains tell of gravity and masses is wrong by it
 };
 
-/// By how much the correct output of a program may fail to balance.
+/// Largest imbalance that the correct output of a program may have.
 struct OutputAccuracy {
   double tolerance = 0;      // largest residual not explained by late damping
   bool late_forces = false;  // imbalance.hpp
@@ -64,9 +64,9 @@ class Verification {
   /// waived. `has_images`: images of positions are the archive's.
   std::optional<Complaint> check(const Frame<3>& frame, bool has_images = true);
 
-  /// Of the last frame; empty where there is nothing to compare with.
+  /// Balance of the last frame; empty where there is nothing to compare with.
   const std::optional<Residual>& residual() const { return residual_; }
-  /// Of the last frame, in the units of the grains.
+  /// The checks' memory of the last frame, in the units of the grains.
   const CheckMoment& moment() const { return moment_; }
 
  private:
@@ -78,7 +78,7 @@ class Verification {
   std::string missing_rows_of(const UnlistedPairs& found) const;
   std::optional<Complaint> pull(const Frame<3>& frame);
 
-  /// What a row's force means, given the unit vector along its branch.
+  /// The force that a row means, given the unit vector along its branch.
   using Reading = std::function<Vec3(const Vec3& force, const Vec3& n)>;
   /// The contact forces on each grain by a reading, in this frame and, where there is one, in that
   /// before; and the largest force of a contact.
@@ -94,7 +94,7 @@ class Verification {
   double too_far(const Frame<3>& frame) const;
   std::optional<Complaint> distance_moved(const Frame<3>& frame) const;
   Distance from_before(const Frame<3>& frame, const Sums& sums) const;
-  /// What is missing on each mobile grain, and the largest force.
+  /// The force that is missing on each mobile grain, and the largest force.
   std::pair<Forces, double> defect_of(const Frame<3>& frame, const Sums& sums) const;
   std::optional<Residual> residual_with(const Frame<3>& frame, const Sums& sums) const;
   void judge_by_velocities(const Frame<3>& frame, const Sums& sums, const Forces& defect,

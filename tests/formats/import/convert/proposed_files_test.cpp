@@ -76,7 +76,7 @@ TEST_F(NamedFiles, ThatNoFormatKnowsAreNamedWithTheirFirstLine)
   const auto text = folder.write("notes.txt", "what I did\n");
   EXPECT_TRUE(
       mentions(asked(unnamed("", {grains, text})),
-               text + ": what it holds is not known by its first line, 'what I did'; name it with "
+               text + ": its content is not known by its first line, 'what I did'; name it with "
                       "--grains or --contacts, and its --format"));
   EXPECT_TRUE(
       mentions(asked(unnamed("liggghts", {grains, text})), "of --format liggghts is not known"));

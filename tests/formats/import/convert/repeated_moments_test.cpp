@@ -64,7 +64,7 @@ TEST_F(TwoJobs, ThatWroteTheSameMomentsCountThemOnce)
   const auto s = jobs({0, 100, 200}, {100, 200, 300}, first_place);
   EXPECT_EQ(kept(s), four_alike);
   EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
-                       "2 moments come twice, the same; each counts once"));
+                       "2 moments come twice with equal grains; each counts once"));
 }
 
 TEST_F(TwoJobs, MayHaveFilesOfTheirOwn)
@@ -86,7 +86,7 @@ TEST_F(TwoJobs, ThatWroteOtherMomentsAtTheSameStepsAreAskedAbout)
   EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {100, false}, {200, false}, {300, true}}));
   EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {100, true}, {200, true}, {300, true}}));
   EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
-                       "2 moments of a job that another one repeats are left out"));
+                       "2 moments of a job are left out, which another job repeats"));
 }
 
 TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersMoments)

@@ -216,8 +216,9 @@ TEST_F(CsvPerStep, TimesAndStepsDoNotMatchAndNamesWithoutEitherAreRefused)
   write("g1.csv", "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
   write("grains.csv", "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
   write("c.csv", contact_table);
-  EXPECT_NE(complaint_of(named("g1.csv", "c.csv")).find("has times, but that of grains has steps"),
-            std::string::npos)
+  EXPECT_NE(
+      complaint_of(named("g1.csv", "c.csv")).find("has times, but the table of grains has steps"),
+      std::string::npos)
       << complaint_of(named("g1.csv", "c.csv"));
   EXPECT_NE(complaint_of(named("grains.csv", "c.csv")).find("no column time or step among"),
             std::string::npos);
@@ -372,8 +373,8 @@ TEST_F(Csv, MomentsThatDoNotMatchAreNamed)
   const auto later = with(with(contact_table, "0.5,7", "0.500003,7"), "0.6,7", "0.600003,7");
   EXPECT_EQ(
       complaint(grain_table, later),
-      "no moment is in both tables: those of the grains begin with 0.5, 0.6, those of the contacts "
-      "with 0.500003, 0.600003; write both at the same moments");
+      "no moment is in both tables: the grains begin with 0.5, 0.6, the contacts with 0.500003, "
+      "0.600003; write both at the same moments");
   EXPECT_EQ(complaint(grain_table, "time,i,j,fx,fy\n"), "no complaint")
       << "there is nothing to match";
 }

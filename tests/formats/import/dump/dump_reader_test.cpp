@@ -164,8 +164,8 @@ TEST_F(Dump, StepsThatNoDumpSharesAreNamed)
     FAIL() << "no step is in both";
   } catch (const FormatError& error) {
     EXPECT_TRUE(mentions(error.what(),
-                         "those of the grains begin with 0, 100, 200, those of the "
-                         "contacts with 50, 150; write both at the same moments"));
+                         "the grains begin with 0, 100, 200, the contacts with 50, 150; write "
+                         "both at the same moments"));
   }
 }
 

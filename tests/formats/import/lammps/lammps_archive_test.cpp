@@ -347,8 +347,8 @@ TEST_F(Lammps, ADensityBesideMassesHasToBeTheirs)
 {
   auto s = settings(folder, grains_at(0), contacts_at(0));
   s.density = 2;
-  EXPECT_TRUE(mentions(refusal(s).sentence,
-                       "--density is 2, but the archive has masses, of a density of 1 "));
+  EXPECT_TRUE(
+      mentions(refusal(s).sentence, "--density is 2, but the masses in the archive make it 1 "));
   s.density = 1;
   EXPECT_EQ(refusal(s).code, 0) << refusal(s).sentence;
 }

@@ -234,8 +234,8 @@ TEST_F(Mercury, TimesThatNoTableSharesAreNamed)
   all.contacts = {file("late.fstat", mercury_files::fstat(run.grains(), late, {}))};
   EXPECT_NE(
       complaint(all).find(fmt::format(
-          "no moment is in both tables: those of the grains begin with {:.10g}, {:.10g}, {:.10g}, those "
-          "of the contacts with {:.10g}",
+          "no moment is in both tables: the grains begin with {:.10g}, {:.10g}, {:.10g}, the contacts "
+          "with {:.10g}",
           frames[0].time, frames[1].time, frames[2].time, late.time)),
       std::string::npos)
       << complaint(all);

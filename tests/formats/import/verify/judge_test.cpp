@@ -151,8 +151,7 @@ TEST(JudgeGravity, ThreeTimesUpwardAndNoneAreWrong)
 {
   const auto three_times = gravity_of({0, -10.0 / 3, 0}, 0.01);
   EXPECT_EQ(three_times.verdict, Verdict::failed);
-  EXPECT_TRUE(
-      mentions(three_times.sentence, "or masses are 0.333 times what --density makes them"));
+  EXPECT_TRUE(mentions(three_times.sentence, "or masses are 0.333 times the masses by --density"));
   EXPECT_EQ(gravity_of({0, 10, 0}, 0.01).verdict, Verdict::failed);
   EXPECT_EQ(gravity_of({0, 0, 0}, 0.01).verdict, Verdict::failed);
   auto none = context_of();
@@ -237,7 +236,7 @@ TEST(JudgeMasses, ForceOverAccelerationIsTheMass)
   const auto finding = judge_masses({moment}, context_of(), gravity);
   EXPECT_EQ(finding.verdict, Verdict::failed);
   EXPECT_TRUE(mentions(finding.sentence,
-                       "either masses are 2 times what --density makes them, or "
+                       "either masses are 2 times the masses by --density, or "
                        "the time step is 0.5 times as long"));
 }
 

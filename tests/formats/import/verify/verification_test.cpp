@@ -338,7 +338,7 @@ TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
   scene.frame.force[0] = {-6, -20, 0};
   scene.frame.force[1] = {6, 0, 0};
   EXPECT_TRUE(
-      mentions(scene.complaint(), "what is missing acts along 1 pairs without a listed force"));
+      mentions(scene.complaint(), "the missing forces act between 1 pairs without a listed force"));
   EXPECT_TRUE(mentions(scene.complaint(), "(the largest: grains 1 and 2): contacts that pull"));
 }
 
@@ -388,7 +388,7 @@ TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
   const auto complaint = scene.verification().check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(
-      mentions(complaint->sentence, "what is missing is 2 times the momentum of each grain"));
+      mentions(complaint->sentence, "the missing force is 2 times the momentum of each grain"));
   EXPECT_TRUE(complaint->spoils_gravity);
 }
 
