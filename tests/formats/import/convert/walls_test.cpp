@@ -115,7 +115,7 @@ TEST_F(Walls, InACornerEachWallPushesAlongItsNormal)
   for (const std::size_t c : {1U, 2U}) force[frame.contacts.j[c]] = frame.contacts.force[c];
   EXPECT_NEAR((force[-1] - Vec2(0, -mass * gy)).norm(), 0, 1e-15);
   EXPECT_NEAR((force[-2] - Vec2(-mass * gx, 0)).norm(), 0, 1e-15);
-  EXPECT_TRUE(mentions(to_text(report), "1 times a grain touches more than one wall"));
+  EXPECT_TRUE(mentions(to_text(report), "1 times a grain touches more than one of these walls"));
 }
 
 TEST_F(Walls, OneThatWouldPullGetsNothingBesideOneThatPushes)

@@ -213,7 +213,8 @@ TEST(JudgeMasses, WithoutForcesOnlyTheWeightIsKnown)
   auto context = context_of(false);
   const auto finding = judge_masses(series, context, gravity);
   EXPECT_EQ(finding.verdict, Verdict::undecided);
-  EXPECT_TRUE(mentions(finding.sentence, "only the weight, mass times gravity, is known"));
+  EXPECT_TRUE(
+      mentions(finding.sentence, "the archive shows the weight, mass times gravity, alone"));
   context.masses_are_given = false;
   EXPECT_EQ(judge_masses(series, context, gravity).verdict, Verdict::passed);
 }
@@ -275,7 +276,7 @@ TEST(JudgeSizes, SmallAndLargeExchangedAreRefusedWithTheExchange)
   EXPECT_TRUE(mentions(judge_sizes(context).sentence, "exchange them, --small 2 --large 1"));
   context = context_of();
   context.species[0].nominal = 0.04;
-  EXPECT_TRUE(mentions(judge_sizes(context).sentence, "is far from those of its grains"));
+  EXPECT_TRUE(mentions(judge_sizes(context).sentence, "is far from the diameters of its grains"));
 }
 
 TEST(Waivers, WaiveOneCheckEachUpToItsMeasure)
