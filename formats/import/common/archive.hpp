@@ -234,9 +234,10 @@ class Archive {
   /// How the columns of the contacts are read, as --columns would give it; "" where the format
   /// fixes it.
   virtual std::string columns() const { return ""; }
-  /// Where the forces on grains do not add up with `columns()` under this gravity (in the archive's
-  /// axes), but do with another value of --columns: that with which they do best. Valid after `next`.
-  virtual std::optional<ColumnFit> fitting_columns(const Vec3& /*gravity*/) const
+  /// The value of --columns with which the forces on grains add up best, under this gravity (in the
+  /// archive's axes), if it is known. Nothing where they add up with `columns()`, or with no other
+  /// value. Valid after `next`.
+  virtual std::optional<ColumnFit> fitting_columns(const std::optional<Vec3>& /*gravity*/) const
   {
     return std::nullopt;
   }

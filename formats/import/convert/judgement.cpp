@@ -46,15 +46,6 @@ void Judgement::add(const MomentRecord& record, const std::string& place)
     throw CheckError(fmt::format("{}: {}", place, text));
 }
 
-std::vector<Finding> Judgement::findings(bool strict) const
-{
-  auto findings = judge(series_, context_);
-  if (const auto text = failures(findings); !text.empty()) throw CheckError(text);
-  if (const auto all = lines_with(findings, Verdict::undecided, "; "); strict && !all.empty())
-    throw CheckError(fmt::format("undecided, and --strict is given: {}", all));
-  return findings;
-}
-
 void Judgement::add_residuals_to(Parameters& parameters) const
 {
   if (residuals_.empty()) return;
@@ -80,7 +71,11 @@ void Judgement::add_residuals_to(Parameters& parameters) const
 
 Parameters Judgement::close(ImportReport& report, bool strict) const
 {
-  report.findings = findings(strict);
+  report.findings = judge(series_, context_);
+  if (const auto text = failures(report.findings); !text.empty()) throw CheckError(text);
+  if (const auto all = lines_with(report.findings, Verdict::undecided, "; ");
+      strict && !all.empty())
+    throw CheckError(fmt::format("undecided, and --strict is given: {}", all));
   Parameters last;
   // The first moment may have had no contacts to tell.
   if (run_.grains_come_and_go)

@@ -30,7 +30,6 @@ class Judgement {
   std::string also_failed(const CheckMoment& moment) const;
 
  private:
-  std::vector<Finding> findings(bool strict) const;
   void add_residuals_to(Parameters& parameters) const;
 
   const RunDescription& run_;

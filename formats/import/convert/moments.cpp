@@ -120,8 +120,11 @@ std::string MomentRange::seen() const
                      : fmt::format("{} moments from {} to {}", count_, first_, last_);
 }
 
-void RepeatedMoments::set_times(const std::vector<double>& times)
+RepeatedMoments::RepeatedMoments(const ImportSettings& settings)
 {
+  if (settings.repeated) which_ = choose(*settings.repeated, "--repeated", repeated_words);
+  if (which_ != Repeated::last) return;
+  const auto times = times_of(*open_archive(settings.format, settings.files));
   double earliest = std::numeric_limits<double>::infinity();  // of those behind
   last_ones_.assign(times.size(), false);
   for (auto k = times.size(); k-- > 0;) {
@@ -180,12 +183,9 @@ Moments::Moments(const ImportSettings& settings)
       interval_(settings.interval),
       drop_incomplete_(settings.drop_incomplete),
       cells_(parse_cells(settings.cells)),
-      repeated_(settings.repeated ? choose(*settings.repeated, "--repeated", repeated_words)
-                                  : Repeated::ask),
+      repeated_(settings),
       range_(settings.begin, settings.end)
 {
-  if (repeated_.needs_all_times())
-    repeated_.set_times(times_of(*open_archive(settings.format, settings.files)));
 }
 
 bool Moments::read_one(ArchiveMoment& moment, Read read)

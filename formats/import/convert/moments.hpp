@@ -54,12 +54,9 @@ class MomentRange {
 /// Picks the moments of an archive that count, in order of time.
 class RepeatedMoments {
  public:
-  explicit RepeatedMoments(Repeated which) : which_(which) {}
+  /// Reads all moments once where the last ones count.
+  explicit RepeatedMoments(const ImportSettings& settings);
 
-  bool needs_all_times() const { return which_ == Repeated::last; }
-  /// Takes the times of all moments, as they follow in the archive; needed for Repeated::last
-  /// alone.
-  void set_times(const std::vector<double>& times);
   /// True where this moment, the next one of the archive, counts. UsageError where one comes again
   /// otherwise than before, and nothing says which counts.
   bool counts(const ArchiveMoment& moment);
@@ -69,7 +66,7 @@ class RepeatedMoments {
  private:
   bool comes_again(const ArchiveMoment& moment, double time);
 
-  Repeated which_;
+  Repeated which_ = Repeated::ask;
   std::vector<bool> last_ones_;           // of the moments in the archive
   std::size_t next_ = 0;                  // of these
   std::map<double, std::uint64_t> seen_;  // digests of grains, by time

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
 namespace grseg {
@@ -84,27 +83,21 @@ class Collector {
     all.id.push_back(now.id[g]);
     all.position.emplace_back(Vec3::Zero());
     seen_.emplace_back();
-    const auto add = [&](const auto& from, auto& to, const char* what, auto value) {
-      if (!from.empty()) to.push_back(value(from));
+    const auto copy = [&](const auto& from, auto& to, const char* what) {
+      if (!from.empty()) to.push_back(from[g]);
       if (!to.empty() && to.size() != all.size())
         throw FormatError(fmt::format(
             "{}: some moments have {} of grains and some do not; import them separately, with "
             "--begin and --end",
             moment.place, what));
     };
-    const auto copy = [&](const auto& from, auto& to, const char* what) {
-      add(from, to, what, [g](const auto& values) { return values[g]; });
-    };
-    const auto make_room = [&](const auto& from, auto& to, const char* what) {
-      add(from, to, what, [](const auto&) { return Vec3(Vec3::Zero()); });
-    };
     copy(now.type, all.type, "types");
     copy(now.radius, all.radius, "radii");
     copy(now.mass, all.mass, "masses");
     copy(now.fixed, all.fixed, "fixed flags");
-    make_room(now.velocity, all.velocity, "velocities");
-    make_room(now.angular_velocity, all.angular_velocity, "angular velocities");
-    make_room(now.force, all.force, "forces");
+    copy(now.velocity, all.velocity, "velocities");
+    copy(now.angular_velocity, all.angular_velocity, "angular velocities");
+    copy(now.force, all.force, "forces");
   }
 
   struct Seen {
@@ -114,19 +107,6 @@ class Collector {
   std::unordered_map<std::int64_t, std::size_t> row_;
   std::vector<Seen> seen_;
 };
-
-/// The grains of the first moments.
-Roster read_roster(const ImportSettings& settings, std::size_t most)
-{
-  Moments moments(settings);
-  Collector collector;
-  std::size_t read = 0;
-  for (ArchiveMoment moment; read < most && moments.next_grains(moment); ++read) {
-    stop_if_interrupted();
-    collector.add(moment);
-  }
-  return collector.finish();
-}
 
 bool grains_change_early(const ImportSettings& settings)
 {
@@ -147,9 +127,16 @@ bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 
 }  // namespace
 
-Roster read_roster(const ImportSettings& settings)
+Roster read_roster(const ImportSettings& settings, std::size_t most)
 {
-  return read_roster(settings, std::numeric_limits<std::size_t>::max());
+  Moments moments(settings);
+  Collector collector;
+  std::size_t read = 0;
+  for (ArchiveMoment moment; read < most && moments.next_grains(moment); ++read) {
+    stop_if_interrupted();
+    collector.add(moment);
+  }
+  return collector.finish();
 }
 
 void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,

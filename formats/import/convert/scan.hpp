@@ -6,6 +6,8 @@
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/facts/run_facts.hpp"
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -89,7 +91,8 @@ enum class Scan { first_moments, all_moments };
 /// naming moment and grain where an id occurs twice at a moment or changes what a grain keeps.
 ScannedArchive scan(const ImportSettings& settings, Scan how_far = Scan::first_moments);
 
-/// The number of moments in the range of the import, and whether all of them have the same grains.
-Roster read_roster(const ImportSettings& settings);
+/// The grains of the first moments in the range of the import, `most` at most.
+Roster read_roster(const ImportSettings& settings,
+                   std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace grseg

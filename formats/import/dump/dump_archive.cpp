@@ -55,7 +55,18 @@ class ColumnTrial {
     }
     return balance();
   }
-  std::vector<std::string> others() const { return dialect_.others(header_); }
+  /// The columns with which the forces on grains add up best, within the tolerance of the format.
+  std::optional<ColumnFit> best()
+  {
+    constexpr double digits = 1e-6;  // of texts: by less, none is better than another
+    std::optional<ColumnFit> fit;
+    for (const auto& columns : dialect_.others(header_)) {
+      const auto found = residual(columns);
+      if (found && *found < (fit ? fit->residual - digits : dialect_.facts.tolerance))
+        fit = ColumnFit{columns, *found};
+    }
+    return fit;
+  }
 
  private:
   /// | F - sum of contact forces - m g | relative to the median of the grains' largest contact force:
@@ -124,35 +135,6 @@ class ColumnTrial {
   ArchiveContacts contacts_;
 };
 
-/// The value of --columns with which the forces on grains add up best, within the tolerance of the
-/// format. Nothing where they do with `in_use` already, or with none. The first moments that tell are
-/// read, from the files opened again; `gravity` is in the archive's axes. Where it or masses are not
-/// known, it is the acceleration that most grains share once contacts are taken off.
-std::optional<ColumnFit> best_fit(const std::vector<std::string>& grain_files,
-                                  const std::vector<std::string>& contact_files,
-                                  const DumpDialect& dialect, const std::string& in_use,
-                                  const std::optional<Vec3>& gravity)
-{
-  constexpr double digits = 1e-6;                // of texts: by less, none is better than another
-  constexpr std::size_t rows_at_most = 100'000;  // a second or two
-  DumpPair dumps(grain_files, contact_files);
-  for (std::size_t rows = 0; rows < rows_at_most && dumps.next();) {
-    if (dumps.contacts().header().rows == 0) continue;
-    ColumnTrial trial(dumps, dialect, gravity);
-    rows += dumps.contacts().header().rows;
-    const double tolerance = dialect.facts.tolerance;
-    if (!in_use.empty() && trial.residual(in_use).value_or(INFINITY) <= tolerance) break;
-    std::optional<ColumnFit> best;
-    for (const auto& columns : trial.others()) {
-      const auto residual = trial.residual(columns);
-      if (residual && *residual < (best ? best->residual - digits : tolerance))
-        best = ColumnFit{columns, *residual};
-    }
-    if (best) return best;
-  }
-  return std::nullopt;
-}
-
 class DumpArchive : public Archive {
  public:
   DumpArchive(const std::vector<std::string>& grains, const std::vector<std::string>& contacts,
@@ -173,9 +155,26 @@ class DumpArchive : public Archive {
   const ArchiveFacts& facts() const override { return facts_; }
   std::string columns() const override { return columns_text_; }
   std::vector<std::string> remarks() const override { return dumps_.remarks(); }
-  std::optional<ColumnFit> fitting_columns(const Vec3& gravity) const override
-  {
-    return fit_of_columns(columns_text_, gravity);
+  /// From the first moments that tell, of the files opened again. Where gravity or masses are not
+  /// known, gravity is the acceleration that most grains share once contacts are taken off.
+  std::optional<ColumnFit> fitting_columns(const std::optional<Vec3>& gravity) const override
+  try {
+    constexpr std::size_t rows_at_most = 100'000;  // a second or two
+    if (!grains_have_forces_) return std::nullopt;
+    DumpPair dumps(grain_files_, contact_files_);
+    for (std::size_t rows = 0; rows < rows_at_most && dumps.next();) {
+      rows += dumps.contacts().header().rows;
+      if (dumps.contacts().header().rows == 0) continue;
+      ColumnTrial trial(dumps, dialect_, gravity);
+      const bool fits =
+          !columns_text_.empty() &&
+          trial.residual(columns_text_).value_or(INFINITY) <= dialect_.facts.tolerance;
+      const auto best = fits ? std::nullopt : trial.best();
+      if (fits || best) return best;
+    }
+    return std::nullopt;
+  } catch (const FormatError&) {  // a column of words, or damage
+    return std::nullopt;
   }
 
   bool next(ArchiveMoment& moment) override
@@ -258,7 +257,7 @@ class DumpArchive : public Archive {
   void find_columns(const DumpHeader& header, ArchiveMoment& moment)
   {
     columns_text_ = dialect_.assumed(header, moment.grains);
-    const auto fit = fit_of_columns(columns_text_, std::nullopt);
+    const auto fit = fitting_columns(std::nullopt);
     if (!fit && !columns_text_.empty()) return;
     const auto others = dialect_.others(header);
     if (fit)
@@ -274,17 +273,6 @@ class DumpArchive : public Archive {
         {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
          "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
          fmt::format("they are {}; {}", fmt::join(header.columns, " "), why)});
-  }
-
-  std::optional<ColumnFit> fit_of_columns(const std::string& in_use,
-                                          const std::optional<Vec3>& gravity) const
-  {
-    if (!grains_have_forces_) return std::nullopt;
-    try {
-      return best_fit(grain_files_, contact_files_, dialect_, in_use, gravity);
-    } catch (const FormatError&) {  // a column of words, or damage
-      return std::nullopt;
-    }
   }
 
   const DumpDialect& dialect_;

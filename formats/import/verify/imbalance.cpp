@@ -19,8 +19,8 @@ namespace {
 
 /// Least part of the missing forces that a cause has to explain.
 constexpr double most = 0.8;
-/// In units of the radius: how near to a face of the bed a grain lies that touches it, and from
-/// where on an overlap is deep.
+/// Largest distance from a face of the bed of a grain that touches it, and smallest deep overlap, in
+/// units of the radius.
 constexpr double at_face = 0.3, deep = 0.1;
 /// The missing force of a contact with a wall is along its normal at least by this part: friction
 /// coefficients up to 1.7.
@@ -34,14 +34,15 @@ struct Side {
 };
 
 /// How far the near edge of a grain is outside; the largest of all grains is where the side lies.
-double reach(const Grains& grains, const Frame<3>& frame, std::size_t g, const Side& side)
+double reach(const Imbalance& imbalance, std::size_t g, const Side& side)
 {
-  const double x = frame.position[g][side.axis];
-  return side.upper ? x + grains.radius[g] : grains.radius[g] - x;
+  const double x = imbalance.frame.position[g][side.axis], radius = imbalance.grains.radius[g];
+  return side.upper ? x + radius : radius - x;
 }
 
-std::vector<Side> open_sides(const Grains& grains, const Box& box, const Frame<3>& frame)
+std::vector<Side> open_sides(const Imbalance& imbalance)
 {
+  const auto& [grains, box, frame, defect, limit] = imbalance;
   std::vector<Side> sides;
   for (int axis = 0; axis < 3; ++axis) {
     if ((axis == 2 && box.dimension == 2) || (axis == 0 && box.periodic_x) ||
@@ -51,7 +52,7 @@ std::vector<Side> open_sides(const Grains& grains, const Box& box, const Frame<3
       Side side{axis, upper, -std::numeric_limits<double>::infinity()};
       for (std::size_t g = 0; g < grains.size(); ++g)
         if (is_mobile(grains, frame, g))
-          side.position = std::max(side.position, reach(grains, frame, g, side));
+          side.position = std::max(side.position, reach(imbalance, g, side));
       sides.push_back(side);
     }
   }
@@ -70,29 +71,29 @@ std::string text_of(const Side& side, const AxisInArchive& axis)
                      axis.letter, axis.forward ? x - axis.shift : axis.shift - x);
 }
 
-std::string missing_walls(const Grains& grains, const Box& box, const Frame<3>& frame,
-                          const Imbalance& imbalance, const std::vector<std::size_t>& unbalanced,
+std::string missing_walls(const Imbalance& imbalance, const std::vector<std::size_t>& unbalanced,
                           const std::array<AxisInArchive, 3>& axes)
 {
-  const auto sides = open_sides(grains, box, frame);
+  const auto sides = open_sides(imbalance);
   std::vector<std::size_t> count(sides.size());
   std::size_t explained = 0;
   double missing = 0, missing_at_sides = 0;
   for (const auto g : unbalanced) {
     bool at_any = false;
-    missing += imbalance.defect[g].norm();
+    const double size = imbalance.defect[g].norm();
+    missing += size;
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const auto& side = sides[s];
       // A missing force pushes away from the side: the opposite of the defect.
       const double push = (side.upper ? 1 : -1) * imbalance.defect[g][side.axis];
-      if (reach(grains, frame, g, side) < side.position - at_face * grains.radius[g] ||
-          push < along_normal * imbalance.defect[g].norm())
+      if (reach(imbalance, g, side) < side.position - at_face * imbalance.grains.radius[g] ||
+          push < along_normal * size)
         continue;
       ++count[s];
       at_any = true;
     }
     explained += at_any;
-    if (at_any) missing_at_sides += imbalance.defect[g].norm();
+    if (at_any) missing_at_sides += size;
   }
   if (missing_at_sides < most * missing) return "";
   std::string where;
@@ -151,36 +152,26 @@ struct PairForce {
   bool pushes = false;
 };
 
-bool counts(const Grains& grains, const Frame<3>& frame, const Imbalance& imbalance, std::size_t g)
-{
-  return is_mobile(grains, frame, g) && imbalance.defect[g].norm() > imbalance.limit;
-}
-
-/// The forces between `pairs` that leave the least of what is missing (least squares), and the part of
-/// the squares that they explain on the grains that do not balance.
+/// The forces between `pairs` that leave the least of the missing forces over (least squares), and
+/// the part of the squares that they explain on the grains that do not balance.
 std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearPair>& pairs,
-                                                         const Grains& grains, const Box& box,
-                                                         const Frame<3>& frame,
                                                          const Imbalance& imbalance)
 {
+  const auto& [grains, box, frame, defect, limit] = imbalance;
   const auto rows = static_cast<Eigen::Index>(3 * grains.size());
   const auto columns = static_cast<Eigen::Index>(3 * pairs.size());
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd missing = Eigen::VectorXd::Zero(rows);
   const auto is_open = [&](std::size_t g) {
-    return is_mobile(grains, frame, g) && !std::isnan(imbalance.defect[g].y());
+    return is_mobile(imbalance.grains, imbalance.frame, g) && !std::isnan(imbalance.defect[g].y());
   };
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (is_open(g)) missing.segment<3>(static_cast<Eigen::Index>(3 * g)) = -imbalance.defect[g];
+    if (is_open(g)) missing.segment<3>(static_cast<Eigen::Index>(3 * g)) = -defect[g];
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto place = [&](std::int32_t of) { return static_cast<int>(3 * of) + axis; };
-      const auto column = static_cast<int>(3 * k) + axis;
-      if (is_open(static_cast<std::size_t>(pairs[k].i)))
-        entries.emplace_back(place(pairs[k].i), column, 1);
-      if (is_open(static_cast<std::size_t>(pairs[k].j)))
-        entries.emplace_back(place(pairs[k].j), column, -1);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const auto& [grain, sign] : {std::pair{pairs[k].i, 1}, {pairs[k].j, -1}})
+        if (is_open(row(grain)))
+          entries.emplace_back(3 * grain + axis, static_cast<int>(3 * k) + axis, sign);
   Eigen::SparseMatrix<double> sums(rows, columns);
 #ifndef __clang_analyzer__  // it takes impossible paths through Eigen
   sums.setFromTriplets(entries.begin(), entries.end());
@@ -190,16 +181,16 @@ std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearP
   const Eigen::VectorXd left = sums * forces - missing;
   double rest = 0, all = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!counts(grains, frame, imbalance, g)) continue;
+    if (!imbalance.counts(g)) continue;
     rest += left.segment<3>(static_cast<Eigen::Index>(3 * g)).squaredNorm();
-    all += imbalance.defect[g].squaredNorm();
+    all += defect[g].squaredNorm();
   }
   std::vector<PairForce> found;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const Vec3 force = forces.segment<3>(static_cast<Eigen::Index>(3 * k));
-    if (force.norm() <= imbalance.limit) continue;
-    const auto i = static_cast<std::size_t>(pairs[k].i), j = static_cast<std::size_t>(pairs[k].j);
-    const auto branch = minimum_image(box, frame.position[i] - frame.position[j]);
+    if (force.norm() <= limit) continue;
+    const Vec3 apart = frame.position[row(pairs[k].i)] - frame.position[row(pairs[k].j)];
+    const auto branch = minimum_image(box, apart);
     found.push_back({pairs[k], force.norm(), force.dot(branch) > 0});
   }
   return {std::move(found), all > 0 ? 1 - rest / all : 0};
@@ -215,7 +206,7 @@ std::string text_of(const Grains& grains, const std::vector<PairForce>& pairs)
       [](const PairForce& a, const PairForce& b) { return a.pair.gap < b.pair.gap; });
   const bool all_pull =
       std::all_of(pairs.begin(), pairs.end(), [](const PairForce& pair) { return !pair.pushes; });
-  const auto id = [&](std::int32_t row) { return grains.id[static_cast<std::size_t>(row)]; };
+  const auto id = [&](std::int32_t of) { return grains.id[row(of)]; };
   if (pairs.size() == 1 && pairs[0].pushes)
     return fmt::format(
         "; the missing force acts between grains {} and {}, which touch: their contact is missing",
@@ -231,14 +222,13 @@ std::string text_of(const Grains& grains, const std::vector<PairForce>& pairs)
             "stress");
 }
 
-/// k of the drag -k x on each grain that leaves the least of what is missing on the grains that do not
+/// k of the drag -k x on each grain that leaves the least force missing on the grains that do not
 /// balance, and the part of the squares that it explains.
-std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Grains& grains,
-                                     const Frame<3>& frame, const Imbalance& imbalance)
+std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Imbalance& imbalance)
 {
   double xx = 0, xy = 0, all = 0, count = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    if (!counts(grains, frame, imbalance, g)) continue;
+  for (std::size_t g = 0; g < x.size(); ++g) {
+    if (!imbalance.counts(g)) continue;
     xx += x[g].squaredNorm();
     xy += x[g].dot(imbalance.defect[g]);
     all += imbalance.defect[g].squaredNorm();
@@ -291,12 +281,13 @@ double friction_of(const std::vector<Split>& forces)
 
 }  // namespace
 
-std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
-                         const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes)
+std::string likely_cause(const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes)
 {
+  const auto& grains = imbalance.grains;
+  const auto& contacts = imbalance.frame.contacts;
   std::vector<std::size_t> unbalanced;
   for (std::size_t g = 0; g < grains.size(); ++g)
-    if (counts(grains, frame, imbalance, g)) unbalanced.push_back(g);
+    if (imbalance.counts(g)) unbalanced.push_back(g);
   if (unbalanced.empty()) return "";
   if (unbalanced.size() == 2) {
     const Vec3 &a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
@@ -306,11 +297,11 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& f
           "row too many",
           grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
   }
-  const auto walls = missing_walls(grains, box, frame, imbalance, unbalanced, axes);
+  const auto walls = missing_walls(imbalance, unbalanced, axes);
   if (!walls.empty()) return "; " + walls;
-  if (all_along_normals(frame.contacts))
+  if (all_along_normals(contacts))
     return "; all contact forces are along their normals: is the tangential part missing?";
-  const auto overlapping = deeply_overlapping(grains, frame.contacts, unbalanced);
+  const auto overlapping = deeply_overlapping(grains, contacts, unbalanced);
   if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
     return fmt::format(
         "; {} of the {} grains that do not balance overlap others by more than {} of a radius: a bed "
@@ -319,21 +310,21 @@ std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& f
   return "";
 }
 
-UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<3>& frame,
-                               const Imbalance& imbalance)
+UnlistedForces unlisted_forces(const Imbalance& imbalance)
 {
+  const auto& [grains, box, frame, defect, limit] = imbalance;
   auto momentum = frame.velocity, weight = frame.velocity;
   Vec3 missing = Vec3::Zero();  // over the mass, summed over grains
   for (std::size_t g = 0; g < grains.size(); ++g) {
     momentum[g] *= grains.mass[g];
-    if (counts(grains, frame, imbalance, g)) missing += imbalance.defect[g] / grains.mass[g];
+    if (imbalance.counts(g)) missing += defect[g] / grains.mass[g];
   }
   for (std::size_t g = 0; g < grains.size(); ++g) weight[g] = grains.mass[g] * missing;
-  const bool as_weight = drag_along(weight, grains, frame, imbalance).second >= most_squares;
+  const bool as_weight = drag_along(weight, imbalance).second >= most_squares;
   const std::pair<const std::vector<Vec3>&, const char*> drags[] = {{momentum, "momentum"},
                                                                     {frame.velocity, "velocity"}};
   for (const auto& [x, name] : drags) {
-    const auto [factor, explained] = drag_along(x, grains, frame, imbalance);
+    const auto [factor, explained] = drag_along(x, imbalance);
     if (explained < most_squares || factor <= 0) continue;
     return {
         fmt::format("; the missing force is {:.4g} times the {} of each grain, and opposes it: {}",
@@ -350,7 +341,7 @@ UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame
       return !pushing.contains(pair.i, pair.j);
     });
     if (pairs.empty()) continue;
-    const auto [forces, explained] = forces_between(pairs, grains, box, frame, imbalance);
+    const auto [forces, explained] = forces_between(pairs, imbalance);
     if (explained >= most_squares && !forces.empty()) return {text_of(grains, forces), false};
   }
   return {};

@@ -9,38 +9,43 @@
 
 namespace grseg {
 
-/// Where an axis of the flow lies in the archive: x = +-X + shift. No letter: along none of its axes.
+/// Place of an axis of the flow in the archive: x = +-X + shift. No letter: along none of its axes.
 struct AxisInArchive {
   char letter = 0;
   bool forward = true;
   double shift = 0;
 };
 
-/// Grains that do not balance: the defect of each, N (contact forces + m g - force), and the size
-/// from which on it counts.
+/// A frame whose grains do not balance.
 struct Imbalance {
-  const std::vector<Vec3>& defect;
-  double limit = 0;
+  const Grains& grains;
+  const Box& box;
+  const Frame<3>& frame;
+  const std::vector<Vec3>& defect;  // of each grain, N: contact forces + m g - force
+  double limit = 0;                 // a larger defect counts
+
+  bool counts(std::size_t g) const
+  {
+    return is_mobile(grains, frame, g) && defect[g].norm() > limit;
+  }
 };
 
 /// The cause, visible in the archive itself, why grains do not balance, as part of a sentence, ""
 /// where none is: most of them lie at a face of the bed, away from which they are pushed (a wall is
 /// missing); all contact forces are along their normals (the tangential part is missing); they
 /// overlap deeply (a bed that is being filled).
-std::string likely_cause(const Grains& grains, const Box& box, const Frame<3>& frame,
-                         const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes);
+std::string likely_cause(const Imbalance& imbalance, const std::array<AxisInArchive, 3>& axes);
 
-/// Which forces that the archive does not list would balance its grains, as part of a sentence; ""
-/// where none of these would: forces along pairs that bear none in the list, opposite on the two grains (bonds,
-/// or contacts that pull beyond touch); a drag on each grain, in proportion to its velocity or its
-/// momentum.
+/// Forces that the archive does not list and that would balance its grains, as part of a sentence;
+/// "" where none of these would: forces along pairs that bear none in the list, opposite on the two
+/// grains (bonds, or contacts that pull beyond touch); a drag on each grain, in proportion to its
+/// velocity or its momentum.
 struct UnlistedForces {
   std::string sentence;
   bool acts_as_weight = false;  // gravity found from the grains would be wrong by them
 };
 
-UnlistedForces unlisted_forces(const Grains& grains, const Box& box, const Frame<3>& frame,
-                               const Imbalance& imbalance);
+UnlistedForces unlisted_forces(const Imbalance& imbalance);
 
 /// Programs that step by velocity Verlet move grains by contact forces at the velocities of
 /// mid-step, but some re-evaluate the forces for output, with velocities half a step later

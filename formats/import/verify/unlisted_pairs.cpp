@@ -58,17 +58,13 @@ class Cells {
   {
     if ((from.array() > high_.array()).any() || (to.array() < low_.array()).any()) return;
     const Place first = place(from.cwiseMax(low_)), last = place(to.cwiseMin(high_));
-    for (Place at = first;;) {
-      // Cells along the first axis follow one another.
-      const auto begin = begins_[index(at)];
-      at[0] = last[0];
-      const auto end = begins_[index(at) + 1];
-      at[0] = first[0];
-      for (auto k = std::max(begin, beyond); k < end; ++k) use(grains_[k]);
-      std::size_t axis = 1;
-      while (axis < 3 && ++at[axis] > last[axis]) at[axis] = first[axis], ++axis;
-      if (axis == 3) return;
-    }
+    for (auto z = first[2]; z <= last[2]; ++z)
+      for (auto y = first[1]; y <= last[1]; ++y) {
+        // Cells along the first axis follow one another.
+        const auto end = begins_[index({last[0], y, z}) + 1];
+        for (auto k = std::max(begins_[index({first[0], y, z})], beyond); k < end; ++k)
+          use(grains_[k]);
+      }
   }
 
  private:
@@ -91,9 +87,7 @@ class Cells {
   }
   std::size_t index(const Place& at) const
   {
-    std::ptrdiff_t place = 0;
-    for (std::size_t axis = 3; axis-- > 0;) place = place * counts_[axis] + at[axis];
-    return static_cast<std::size_t>(place);
+    return static_cast<std::size_t>((at[2] * counts_[1] + at[1]) * counts_[0] + at[0]);
   }
   void sort()
   {
@@ -144,11 +138,10 @@ constexpr double errors = 3, part_of_median = 0.25;
 /// make. Without any spin, if they are `joined`: true where they move, but not along their branch.
 bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
 {
-  const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+  const auto i = row(pair.i), j = row(pair.j);
   const double spin = frame.angular_velocity[i].norm();
   const Vec3 other = frame.angular_velocity[i] - frame.angular_velocity[j];
-  const double differing = other.norm();
-  if (differing > same_motion * spin) return false;
+  if (other.norm() > same_motion * spin) return false;
   const Vec3 branch = minimum_image(box, frame.position[i] - frame.position[j]);
   const Vec3 relative = frame.velocity[i] - frame.velocity[j];
   if (spin == 0)
@@ -286,8 +279,7 @@ UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Fram
     if (moves_as_one(box, frame, pair, overlaps_without)) found.rigid.push_back(pair);
     if (!overlaps_without) continue;
     found.unlisted.push_back(pair);
-    found.at_boundary += !is_mobile(grains, static_cast<std::size_t>(pair.i)) ||
-                         !is_mobile(grains, static_cast<std::size_t>(pair.j));
+    found.at_boundary += !is_mobile(grains, row(pair.i)) || !is_mobile(grains, row(pair.j));
   }
   std::sort(found.unlisted.begin(), found.unlisted.end(),
             [](const NearPair& a, const NearPair& b) { return a.gap < b.gap; });

@@ -337,10 +337,10 @@ std::optional<Complaint> Verification::balance(const Frame<3>& frame, const Sums
     moment_.balance_grains += is_mobile(grains_, frame, g);
   if (residual_->unexplained <= tolerance()) return std::nullopt;
   const auto [defect, scale] = defect_of(frame, sums);
-  const Imbalance missing{defect, tolerance() * scale};
+  const Imbalance missing{grains_, box_, frame, defect, tolerance() * scale};
   UnlistedForces cause{other_readings(frame), false};
-  if (cause.sentence.empty()) cause = unlisted_forces(grains_, box_, frame, missing);
-  if (cause.sentence.empty()) cause.sentence = likely_cause(grains_, box_, frame, missing, axes_);
+  if (cause.sentence.empty()) cause = unlisted_forces(missing);
+  if (cause.sentence.empty()) cause.sentence = likely_cause(missing, axes_);
   return Complaint{
       "balance",
       fmt::format(
