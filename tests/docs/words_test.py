@@ -17,7 +17,7 @@ def comments(text):
     """Comments with their first lines; lines of comment that follow each other are one."""
     block, first = [], 0
     for number, line in enumerate(text.split("\n"), 1):
-        whole = re.match(r"\s*(///?|/\*\*?|\*(?!/))\s?(?!SPDX)(.*)", line)
+        whole = re.match(r"\s*(///?|/\*\*?|\*(?!/))(?!\s*SPDX)\s?(.*)", line)
         if whole:
             first = first if block else number
             block.append(whole[2])
