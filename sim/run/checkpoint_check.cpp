@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -47,14 +49,15 @@ class Check {
 
   /// Requirements on every entry: as many values as there are grains or pairs, and finite numbers.
   template <class T>
-  void operator()(const std::string& path, const T& value) const
+  void operator()(const char* path, const T& value) const
   {
     if constexpr (std::is_same_v<T, double>)
-      require(finite(value), path + " is not a finite number");
+      require(finite(value), fmt::format("{} is not a finite number", path));
   }
   template <class T>
-  void operator()(const std::string& path, const std::vector<T>& values) const
+  void operator()(const char* name, const std::vector<T>& values) const
   {
+    const std::string_view path = name;
     const bool made_at = path == "/state/pairs/made_at";
     const bool of_pairs = path.starts_with("/state/pairs/") && !made_at;
     const auto grains = c_.grains.size(), pairs = c_.state.pairs.i.size();
@@ -64,7 +67,7 @@ class Check {
                         of_pairs ? pairs : grains, of_pairs ? "pairs" : "grains"));
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec2>)
       each(
-          path, values, [](const T& x) { return finite(x); }, "is not a finite number");
+          name, values, [](const T& x) { return finite(x); }, "is not a finite number");
   }
 
  private:
@@ -79,8 +82,7 @@ class Check {
     if (!valid) fail(what);
   }
   template <class Values, class Valid>
-  void each(const std::string& path, const Values& values, const Valid& valid,
-            const char* what) const
+  void each(const char* path, const Values& values, const Valid& valid, const char* what) const
   {
     for (std::size_t k = 0; k < values.size(); ++k)
       if (!valid(values[k])) fail(fmt::format("{}, entry {}, {}", path, k, what));

@@ -108,6 +108,7 @@ class ColumnTrial {
     Vec3 shared;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       std::vector<double> accelerations;
+      accelerations.reserve(touched.size());
       for (const auto grain : touched)
         accelerations.push_back(left_over[grain][axis] / weight(grain));
       shared[axis] = median(accelerations);
@@ -169,7 +170,7 @@ class DumpArchive : public Archive {
       const bool fits =
           !columns_text_.empty() &&
           trial.residual(columns_text_).value_or(INFINITY) <= dialect_.facts.tolerance;
-      const auto best = fits ? std::nullopt : trial.best();
+      auto best = fits ? std::nullopt : trial.best();
       if (fits || best) return best;
     }
     return std::nullopt;
