@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.25)
-# Writes OUTPUT, a header with the short git hash of SOURCE, and leaves it alone when it is right.
+# Writes OUTPUT, a header with the short git hash of SOURCE; does not touch a file that is up to date.
 execute_process(
   COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=10 --exclude *
   OUTPUT_VARIABLE hash

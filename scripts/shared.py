@@ -1,8 +1,9 @@
 """Functions for all scripts: tables of grseg as text, the tools that print them, intervals, and Markdown.
 
-Every table of grseg ends with a line '# end: 3 rows, xxh3 0123456789abcdef', the number of rows and the xxh3 (64 bit) of
-all bytes before it. Tables read here are checked by it; a changed table gets another such line. Tables of numbers alone
-are also read by analysis/python/grseg.py, as arrays.
+Every table of grseg ends with a line '# end: 3 rows, xxh3 0123456789abcdef': the number of rows, and the hash xxh3 (64
+bit) of all bytes before this line. Tables are checked against this line when they are read here, and the line is renewed
+if a table is changed. analysis/python/grseg.py reads tables that include only numbers, as arrays; it checks only the
+number of rows, so scripts read arrays with table().
 """
 import ctypes
 import ctypes.util
@@ -16,16 +17,16 @@ import sys
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(SCRIPTS)
 BIN = os.path.join(ROOT, "build", "bin")
-sys.path.append(os.path.join(ROOT, "analysis", "python"))  # of grseg.py
+sys.path.append(os.path.join(ROOT, "analysis", "python"))  # folder of grseg.py
 MARK = "# end: "
-# Tables that name no program, made by hand, may have no such line.
+# Tables without a line "# program:", made by hand, need no line "# end:".
 WITH_END = re.compile(r"^# program: ", re.MULTILINE)
 
 
 # ------------------------------------------------------------------------------------------ tables
 
 def xxh3(data):
-    """16 hexadecimal digits, by the library that grseg is built with."""
+    """The hash xxh3 of bytes, 16 hexadecimal digits, by the same library as in grseg."""
     name = ctypes.util.find_library("xxhash")
     if name is None:
         sys.exit("libxxhash is missing; install it (scripts/setup does)")
@@ -40,12 +41,12 @@ def end_line(text):
 
 
 def sealed(text):
-    """The table with the line that ends it."""
+    """The table with its last line "# end: ..." added."""
     return text + end_line(text)
 
 
 def unsealed(text, name="table"):
-    """The table without the line that ends it. Exits where this line is missing or does not agree with the others."""
+    """The table without its last line "# end: ...". Exits if this line is missing or does not agree with the table."""
     at = text.rfind("\n") + 1 if not text.endswith("\n") else text.rfind("\n", 0, -1) + 1
     if not text.startswith(MARK, at):
         if WITH_END.search(text):
@@ -57,14 +58,14 @@ def unsealed(text, name="table"):
 
 
 def changed(text, pattern, to):
-    """The table with other text in place of the pattern, and with a new line that ends it."""
+    """The table with `to` in place of the pattern, and with a new line "# end: ..."."""
     body = unsealed(text)
     new = re.sub(pattern, to, body)
     return text if new == body else sealed(new)
 
 
 def split(text, path="table"):
-    """Lines before the rows, names of the columns with units, rows of words. Exits where the table is not as it was written."""
+    """Header lines, names of the columns with units, and rows of words. Exits if the table is not as it was written."""
     lines = unsealed(text, path).splitlines()
     head = sum(line.startswith("#") for line in lines)
     return lines[:head], lines[head].split("\t"), [line.split("\t") for line in lines[head + 1:]]
@@ -76,7 +77,7 @@ def lines_of(path):
 
 
 def numbers(cells):
-    """The cells of a row, as numbers where they are numbers."""
+    """The cells of a row; those that are numbers are converted to float."""
     try:
         return [float(cell) for cell in cells]
     except ValueError:
@@ -84,7 +85,7 @@ def numbers(cells):
 
 
 def parse(text, path="table"):
-    """Lines '# key: value' (the first of each key) and rows by column name without unit."""
+    """Header as {key: value} (the first line '# key: value' of each key), and rows as {column name without unit: cell}."""
     head, names, rows = split(text, path)
     names = [name.split("[")[0] for name in names]
     return dict(line[2:].partition(": ")[::2] for line in reversed(head)), [dict(zip(names, numbers(row))) for row in rows]
@@ -95,15 +96,27 @@ def read(path):
         return parse(table.read(), path)
 
 
+def table(path):
+    """The grseg.Table of a file, with arrays. Exits with one sentence if the table is not as it was written."""
+    import grseg  # imported here to save time, since most scripts need no arrays
+    try:
+        found = grseg.read_table(path)
+    except grseg.Error as error:
+        sys.exit(str(error))
+    with open(path) as file:
+        unsealed(file.read(), path)
+    return found
+
+
 def save(path, text):
-    """Writes a file, complete or not at all."""
+    """Writes a file completely or not at all."""
     with open(path + ".part", "w") as out:
         out.write(text)
     os.replace(path + ".part", path)
 
 
 def cell(value):
-    """Text of a cell: words as they are, numbers with eight digits."""
+    """Text of a cell: words unchanged, numbers with eight digits."""
     return value if isinstance(value, str) else f"{value:.8g}"
 
 
@@ -115,7 +128,7 @@ def write(path, comment, names, rows):
 # ------------------------------------------------------------------------------------------- tools
 
 def tool(folder, name, *words):
-    """Output of one of grseg's programs; RuntimeError with its sentence if it fails."""
+    """Output of a program of grseg. Raises RuntimeError with the program's message if it fails."""
     done = subprocess.run([os.path.join(folder, name), *map(str, words)], capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
@@ -128,10 +141,10 @@ class Numbers(dict):
 
 
 def by_rule(rows):
-    """The numbers of grseg-fit, whose table has a row for each, as one dictionary per rule, flow and pair: rule, flow,
-    pair, and for every quantity NAME, NAME_low, NAME_high. B has the interval that was asked for, B_OVER (B_windows,
-    B_equal_flows ...) the interval over each known population. Numbers without a rule (p_zero, dB_dp, Phi_L ...) belong
-    to all rules. degrees_of_freedom belong to B; nan is a missing number."""
+    """The numbers of grseg-fit as one dictionary per rule, flow and pair; `rows` has a row per number. Keys: rule, flow,
+    pair, and NAME, NAME_low, NAME_high for every quantity. B has the interval over the population of --over; B_OVER
+    (B_windows, B_equal_flows ...) has the interval over each known population. Numbers without a rule (p_zero, dB_dp,
+    Phi_L ...) are added to all rules. degrees_of_freedom are those of B. A missing number is nan."""
     found, common = {}, {}
     for row in rows:
         flow = row["flow"], row["pair"]
@@ -151,7 +164,7 @@ def by_rule(rows):
 
 
 def fits(folder, *words):
-    """The numbers of grseg-fit, by_rule()."""
+    """The numbers that grseg-fit prints, as by_rule() returns them."""
     return by_rule(parse(tool(folder, "grseg-fit", *words))[1])
 
 
@@ -162,7 +175,7 @@ STUDENT = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365
 
 
 def student(freedom):
-    """Student's 97.5 % quantile; between the listed degrees of freedom linear in their inverse, off by 3 % at most."""
+    """Student's 97.5 % quantile, interpolated linearly in 1/(degrees of freedom); its error is at most 3 %."""
     above = min((n for n in STUDENT if n >= freedom), default=max(STUDENT))
     below = max((n for n in STUDENT if n <= freedom), default=min(STUDENT))
     if above == below:
@@ -172,8 +185,8 @@ def student(freedom):
 
 
 def mean_and_half_width(values):
-    """Mean and half the width of its 95 % interval, by Student's t over independent values; both are
-    nan where one of the values is."""
+    """Mean of independent values, and half the width of its 95 % interval by Student's t; both are nan if one of
+    the values is nan."""
     n = len(values)
     mean = statistics.fmean(values)
     if n < 2 or math.isnan(mean):
@@ -189,8 +202,8 @@ def markdown(heads, rows):
 
 
 def rewrite(command, paths, parts, optional=()):
-    """Replaces generated parts, {name: text}, of documents: what stands between <!-- NAME --> and <!-- /NAME -->. Each has
-    one place in one of the documents; those named in `optional` may have none."""
+    """Replaces generated parts, {name: text}, of documents: the text between <!-- NAME --> and <!-- /NAME -->. Each part
+    must occur once in one of the documents; parts named in `optional` may be missing."""
     texts = {}
     for path in paths:
         with open(path) as document:

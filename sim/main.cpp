@@ -21,29 +21,29 @@ void add_run_options(po::options_description& options, RunOptions& run)
       "vector instructions to use, such as avx2 (default: the best that the processor has; an "
       "unknown name lists all); results are bitwise identical");
   add("strict", po::bool_switch(&run.strict),
-      "exit code 4 if a step missed the tolerance or grains overlapped by more than 0.25 d_S");
+      "end with exit code 4 if a step missed the tolerance or an overlap exceeded 0.25 d_S");
   add("force", po::bool_switch(&run.force),
-      "begin although the run is expected to need more memory or disk than is free");
+      "start even if the run is expected to need more memory or disk space than is free");
   add("estimate", po::bool_switch(&run.estimate),
-      "print how many grains, bytes and seconds the run is expected to take, and exit");
-  add("quiet", po::bool_switch(&run.quiet), "no progress, no summary");
+      "print the expected numbers of grains, bytes and seconds of the run, and exit");
+  add("quiet", po::bool_switch(&run.quiet), "print neither progress nor summary");
   add("checkpoint", po::value(&run.checkpoint)->value_name("FILE"),
       "write the state to this file regularly, at the end, and on a signal that ends the run: "
       "SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU");
   add("checkpoint-every",
       po::value(&run.checkpoint_every)->default_value(60)->value_name("SECONDS"),
-      "s of wall time between checkpoints");
+      "wall-clock time between checkpoints, s");
   add("continue", po::bool_switch(&run.continues),
-      "continue from --checkpoint if that file exists, else begin: one command for a run that may "
-      "be interrupted; with a longer --duration, frames are added to the finished run");
+      "continue from the file of --checkpoint if it exists, otherwise start the run: the same "
+      "command starts a run and continues it after an interruption. With a longer --duration it "
+      "adds frames to a finished run");
   add("restart", po::value(&run.restart)->value_name("FILE"),
-      "continue from this checkpoint, bitwise as an uninterrupted run; SCENE.ini may be left out. "
-      "A key that differs from the checkpoint's begins a new trajectory; keys of the bed cannot "
-      "change");
+      "continue from this checkpoint, with the same bits as an uninterrupted run. SCENE.ini may be "
+      "left out. A changed key starts a new trajectory; keys that describe the bed cannot change");
   add("perturb", po::value(&run.perturbation.size)->value_name("X"),
-      "at a restart, displace every mobile grain at random by up to this many d_S, such as 1e-6");
+      "at a restart, displace every mobile grain at random by up to X d_S, for example 1e-6");
   add("seed-perturbation", po::value(&run.perturbation.seed)->value_name("N"),
-      "seed of --perturb (default: that of the run)");
+      "seed of the displacements of --perturb (default: seed of the run)");
 }
 
 void check(const RunOptions& run, const po::variables_map& given)
@@ -53,7 +53,7 @@ void check(const RunOptions& run, const po::variables_map& given)
   if (run.estimate && !run.restart.empty())
     throw UsageError("--estimate covers a whole run; leave out --restart");
   if (run.continues && (run.checkpoint.empty() || !run.restart.empty()))
-    throw UsageError("--continue goes on from --checkpoint FILE, without --restart");
+    throw UsageError("--continue needs --checkpoint FILE, and cannot be combined with --restart");
   if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
     throw UsageError("--perturb displaces the grains of a checkpoint; name one with --restart");
   if (!(run.perturbation.size >= 0 && run.perturbation.size <= largest_perturbation))
@@ -61,7 +61,7 @@ void check(const RunOptions& run, const po::variables_map& given)
                                  run.perturbation.size, largest_perturbation));
 }
 
-/// True where `checkpoint` is the end of the run of `scene` that is in `output`.
+/// True if `checkpoint` was written after the last step of `scene` and `output` is published.
 bool is_finished(const Checkpoint& checkpoint, const Scene& scene, const std::string& output)
 {
   return checkpoint.state.steps_done >= scene.steps_in_all() && holds_something(output) &&
@@ -87,11 +87,11 @@ int main(int argc, char** argv)
       "contact dynamics of small and large rigid discs: chute, drum, plane shear, column, hopper.",
       "grseg-sim SCENE.ini [--key value ...] -o run.h5\n"
       "       grseg-sim --restart run.chk [--key value ...] -o run.h5",
-      "  grseg-sim sim/scenes/chute.ini -o run.h5            the paper's flow, 150 s\n"
+      "  grseg-sim sim/scenes/chute.ini -o run.h5            flow of Staron & Phillips (2015), 150 s\n"
       "  grseg-sim chute.ini --phi-large 0.45 --slope 21 --duration 60 -o slow.h5\n"
       "  grseg-sim chute.ini --accuracy draft --duration 20 -o quick.h5\n"
       "  grseg-sim chute.ini --slope 10 --slope-rate 2.5 --duration 8 -o steeper.h5\n"
-      "  grseg-sim chute.ini --checkpoint run.chk --continue -o run.h5    the same after an interruption\n"
+      "  grseg-sim chute.ini --checkpoint run.chk --continue -o run.h5    start, or continue after an interruption\n"
       "  grseg-sim --restart run.chk --duration 300 -o more.h5\n"
       "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n"};
   RunOptions run;

@@ -8,24 +8,24 @@
 #include <string>
 #include <vector>
 
-/// A column of discs or spheres at rest, whose forces are the weights above: all that mechanics says
-/// of it is known.
+/// A column of discs or spheres at rest. Its forces are the weights above each contact, so that all
+/// its mechanics is known exactly.
 namespace grseg::column {
 
 inline constexpr double h = 1e-4, small = 0.005, radius = 0.005, length = 0.1, width = 0.06,
                         weight = 9.8;
 inline constexpr std::size_t discs = 6;
 
-/// Discs of 10 mm, every other one of the species of small grains, on a boundary disc whose top is
-/// at y = 0. Row 0 is the boundary, row k the k-th disc from below; contact k-1 is that below it.
-/// Or spheres, of three species in turns.
+/// Discs of 10 mm, small and large species in turn, on a boundary disc whose top is at y = 0. Row 0
+/// is the boundary, row k the k-th disc from below; contact k-1 is the one below it. In three
+/// dimensions: spheres of three species in turn.
 template <int D>
 struct ColumnOf {
   RunDescription description;
   std::vector<Frame<D>> frames;
   std::vector<std::vector<double>> observables;  // base_force_x, _y (and _z), energy_defect
 
-  /// Gravity (0, -weight) unless told otherwise; `acceleration` is along x; 20 frames, 500 steps apart unless told otherwise.
+  /// Gravity is (0, -weight) by default; `acceleration` is along x. Default: 20 frames, 500 steps apart.
   explicit ColumnOf(const Vector<D>& gravity = -weight * Vector<D>::Unit(1),
                     double acceleration = 0, int apart = 500)
   {
@@ -97,14 +97,14 @@ struct ColumnOf {
     frames.push_back(f);
   }
 
-  /// Shifts the top disc along y, with branch and gap.
+  /// Shifts the top disc along y by `way` (m), and its branch and gap.
   static void lift_top(Frame<D>& f, double way)
   {
     f.position[discs].y() += way;
     f.contacts.branch[discs - 1].y() += way;
     f.contacts.gap[discs - 1] += way;
   }
-  /// Changes a contact's force, and the `force` of the two grains with it.
+  /// Adds `more` to the force of a contact, and updates `force` of its two grains.
   static void push(Frame<D>& f, std::size_t contact, const Vector<D>& more)
   {
     f.contacts.force[contact] += more;

@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// A test with a folder of its own.
+/// A test that has a temporary folder of its own.
 class TestInFolder : public testing::Test {
  protected:
   std::filesystem::path folder =
@@ -40,7 +40,7 @@ class TestInFolder : public testing::Test {
   }
 };
 
-/// What `action` complains about as an Error, or "no complaint".
+/// Message of the Error that `action` throws, or "no complaint".
 template <class Error, class Action>
 std::string complaint_of(const Action& action)
 {

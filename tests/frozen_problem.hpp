@@ -10,9 +10,9 @@
 
 namespace grseg {
 
-/// One step's contact problem out of a developed chute flow (tests/inputs/README.md).
+/// Contact problem of one step, taken from a developed chute flow (tests/inputs/README.md).
 struct FrozenProblem {
-  std::vector<Motion> motion;  // gravity applied, no contact impulse yet
+  std::vector<Motion> motion;  // motion of each body after gravity, before contact impulses
   std::vector<Contact> contacts;
   static constexpr double friction = 0.5;
 };
@@ -30,7 +30,7 @@ inline FrozenProblem read_frozen_problem(const std::string& path)
     file >> problem.motion[b].vx >> problem.motion[b].vy >> omega[b];
   for (auto& c : problem.contacts) {
     double ri = 0, rj = 0, bias = 0, wi = 0, wj = 0, ignored = 0;
-    // The file's normal points from its i to its j, and impulses are those on j: the names change.
+    // In the file the normal points from i to j, and impulses act on j: here i and j are exchanged.
     file >> c.j >> c.i >> c.nx >> c.ny >> rj >> ri >> c.mass_n >> c.mass_t >> bias >> wj >> wi >>
         ignored >> ignored;
     c.kappa = 1;

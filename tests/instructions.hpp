@@ -13,8 +13,8 @@
 
 namespace grseg {
 
-/// The next instruction of a stopped copy of this process, whose code lies where it lies here.
-/// Nothing on processors whose instructions adds_or_multiplies() cannot read.
+/// Next instruction of a stopped copy of this process, whose code has the same addresses as here.
+/// Null on processors whose instructions adds_or_multiplies() cannot read.
 inline const std::uint8_t* next_instruction(pid_t copy)
 {
 #ifdef __x86_64__
@@ -51,10 +51,9 @@ struct Instructions {
   long arithmetic = 0;  // additions, subtractions and multiplications of floating-point numbers
 };
 
-/// The instructions that `work` takes, counted one by one in a copy of this process, so that they
-/// are the same whatever else the machine does; with a few hundred more, always the same, for the
-/// signals at both ends. Nothing where one process may not trace another, or next_instruction() is
-/// not known.
+/// Number of instructions that `work` executes, counted one by one in a copy of this process, so that the
+/// number does not depend on the load of the machine. It includes a constant few hundred for the signals at
+/// both ends. Nothing if a process may not trace another one, or if next_instruction() is not available.
 template <class Work>
 std::optional<Instructions> instructions_of(const Work& work)
 {

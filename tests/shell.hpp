@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-/// Programs as a user calls them.
+/// Runs programs through a shell, as a user does.
 namespace grseg::shell {
 
 struct Outcome {
@@ -15,7 +15,7 @@ struct Outcome {
   std::string out;
 };
 
-/// Runs a shell command; its standard output and exit code.
+/// Runs a shell command; returns its standard output and exit code.
 inline Outcome run(const std::string& command)
 {
   Outcome outcome{-1, ""};

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-/// A run of spheres of three species whose numbers are all different: a coarse, a middle and a fine
-/// grain on one boundary grain and at two straight walls, in a cell that is longer along x than
-/// along z.
+/// A run of spheres of three species in which all numbers differ: a coarse, a middle and a fine
+/// grain on one boundary grain and at two straight walls. The cell is longer along x than along z.
 namespace grseg::spheres {
 
 inline Grains grains()
@@ -22,10 +21,10 @@ inline Grains grains()
   return all;
 }
 
-/// The coarse grain (row 0) lies on the boundary grain (row 3), the middle one (row 1) leans on the
-/// coarse one across the edge x = 0, the fine one (row 2) on both; the fine one also touches wall 1,
-/// and the coarse one wall 0. No branch or force is along an axis. Frame `number` is moved by that
-/// many millimetres along x and z.
+/// The coarse grain (row 0) lies on the boundary grain (row 3). The middle grain (row 1) leans on
+/// the coarse one across the edge x = 0, the fine grain (row 2) on both. The fine grain also touches
+/// wall 1, the coarse one wall 0. No branch or force is along an axis. Frame `number` is shifted by
+/// that many millimetres along x and z.
 inline Frame<3> frame(std::int64_t number)
 {
   Frame<3> f;
@@ -76,7 +75,7 @@ inline RunDescription description()
   return run;
 }
 
-/// A file of `frames` frames.
+/// Writes a file of `frames` frames.
 inline void write(const std::string& path, int frames, const StorageSettings& storage = {},
                   const RunDescription& run = description())
 {

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-/// A run small enough to be known by heart: a large and a small grain on one boundary grain.
+/// A run so small that all its numbers are known: a large and a small grain on one boundary grain.
 namespace grseg::three_grains {
 
 inline Grains grains()
@@ -20,8 +20,8 @@ inline Grains grains()
   return all;
 }
 
-/// The large grain (row 0) sits on the boundary grain (row 2), the small one (row 1) on the large.
-/// Frame `number` is moved by that many millimetres along x.
+/// The large grain (row 0) lies on the boundary grain (row 2), the small one (row 1) on the large
+/// one. Frame `number` is shifted by that many millimetres along x.
 inline Frame<2> frame(std::int64_t number)
 {
   Frame<2> f;
@@ -58,7 +58,7 @@ inline RunDescription description()
   return run;
 }
 
-/// A file of `frames` frames.
+/// Writes a file of `frames` frames.
 inline void write(const std::string& path, int frames, const StorageSettings& storage = {})
 {
   TrajectoryWriter writer(path, description(), storage);

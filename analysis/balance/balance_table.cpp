@@ -26,7 +26,7 @@ constexpr Units units = D == 2 ? Units{"[kg/m^2]", "[kg/(m s)]", "[N/m]", "[N/m^
                                : Units{"[kg/m^3]", "[kg/(m^2 s)]", "[Pa]", "[N/m^3]"};
 constexpr std::array<char, 3> axes{'x', 'y', 'z'};
 
-/// About a mean velocity, m/s.
+/// Kinetic stress of a species about the velocity `mean` (m/s), N/m or Pa.
 template <int D>
 Tensor<D> kinetic_stress(const SpeciesMomentum<D>& of, const Vector<D>& mean)
 {
@@ -34,7 +34,7 @@ Tensor<D> kinetic_stress(const SpeciesMomentum<D>& of, const Vector<D>& mean)
   return of.momentum_flux - carried - carried.transpose() + of.density * mean * mean.transpose();
 }
 
-/// "contact_L_y@half[N/m^2]" and the others of this vector; the rule may be "".
+/// Adds the components of a vector, such as "contact_L_y@half[N/m^2]"; `rule` is "@half" or "".
 template <int D>
 void add_vector(std::vector<Cell>& cells, const std::string& name, const std::string& rule,
                 const Vector<D>& value)
@@ -44,7 +44,7 @@ void add_vector(std::vector<Cell>& cells, const std::string& name, const std::st
                      value[static_cast<Eigen::Index>(a)]});
 }
 
-/// The cells of one species in one layer; its kinetic stress is in N/m or Pa.
+/// Adds the cells of one species in one layer; `kinetic_stress` is in N/m or Pa.
 template <int D>
 void add_species(std::vector<Cell>& cells, const std::string& name, const SpeciesMomentum<D>& of,
                  const Vector<D>& change, const Tensor<D>& kinetic_stress)
@@ -182,8 +182,7 @@ std::string errors_over(const std::vector<double>& values)
 
 namespace {
 
-/// "up by 0.012 +- 0.003", or "neither way" where zero lies within two standard errors; without an
-/// error where the windows have none.
+/// "up by 0.012 +- 0.003", "up by 0.012" without an error, or "neither way" below two errors.
 std::string direction(const std::vector<double>& push)
 {
   const auto [mean, error] = mean_of_windows(push);
@@ -195,7 +194,7 @@ std::string direction(const std::vector<double>& push)
   return fmt::format("{} by {:.2g} +- {:.1g}", mean > 0 ? "up" : "down", std::abs(mean), error);
 }
 
-/// m.
+/// Height of the surface, m: twice the mean height of the mass.
 template <int D>
 double surface(const MomentumBalance<D>& window, const Layers& layers)
 {
@@ -227,7 +226,7 @@ std::vector<std::size_t> layers_inside(const MomentumBalance<D>& window, const L
 
 namespace {
 
-/// "21.9 +- 1.9", or "21.9" where there is no error.
+/// "21.9 +- 1.9", or "21.9" if there is no error.
 std::string with_error(const MeanOfWindows& value, double unit, int digits)
 {
   auto text = fmt::format("{:.{}f}", value.mean / unit, digits);
@@ -235,7 +234,7 @@ std::string with_error(const MeanOfWindows& value, double unit, int digits)
   return text;
 }
 
-/// In 1/1000.
+/// Mean and error in units of 1/1000.
 std::string thousandths(const std::vector<double>& values)
 {
   return with_error(mean_of_windows(values), 1e-3, 1);
@@ -246,7 +245,7 @@ nlohmann::ordered_json json_of(const MeanOfWindows& value)
   return {{"mean", value.mean}, {"standard_error", value.error}};
 }
 
-/// d(push)/dp.
+/// Derivative of the push with respect to the share p, in one window.
 constexpr auto slope_of = [](const auto& window) {
   return window.over_share.all - window.over_share.none;
 };
@@ -347,7 +346,8 @@ MeanOfWindows BalanceSummary<D>::zero() const
   for (const auto& window : windows_) sum += window.over_share;
   const double zero = sum.zero(),
                per_window = (sum.none - sum.all) / static_cast<double>(windows_.size());
-  const auto left = series([&](const Forces& window) {  // p* as far as their mean is p*
+  // Linearized estimates of p* from single windows; their mean is p*.
+  const auto left = series([&](const Forces& window) {
     const auto& [none, all] = window.over_share;
     return zero + (none - zero * (none - all)) / per_window;
   });
@@ -362,7 +362,7 @@ std::string BalanceSummary<D>::sentence() const
   return fmt::format(
       "in units of their weight, with mixed contacts cut at the contact point, large grains are "
       "pushed {} by contact stress, {} by kinetic "
-      "stress and {} by drag (at least two large diameters from base and surface, {}); {}",
+      "stress and {} by drag (layers at least two large diameters from base and surface, {}); {}",
       direction(series(&Forces::push)), direction(series(&Forces::push_kinetic)),
       direction(series(&Forces::drag)), errors_over(series(&Forces::drag)), closed);
 }
@@ -378,8 +378,8 @@ std::string BalanceSummary<D>::text() const
   constexpr const char* line = "  {:<14} {:>18} {:>18} {:>18} {:>18}\n";
   auto text =
       fmt::format(
-          "forces on the large grains in 1/1000 of their weight, upward positive (at least two large "
-          "diameters from base and surface, {}); drag is what closes the balance\n",
+          "forces on the large grains in 1/1000 of their weight, positive upward (layers at least "
+          "two large diameters from base and surface, {}); drag is the rest of the balance\n",
           errors_over(series(&Forces::contact))) +
       fmt::format(line, "rule", "-div sigma", "beta", "contact push", "drag");
   for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
@@ -389,9 +389,9 @@ std::string BalanceSummary<D>::text() const
   }
   return text +
          fmt::format(
-             "under every rule: N = -div sigma + beta + base = {} (in a steady flow 1000, against the "
-             "weight, plus the divergence of the kinetic stress), kinetic push {}; where large grains "
-             "get the share p of every mixed contact, the contact push is ({}) (p - p*), p* = {}; {}",
+             "under every rule: N = -div sigma + beta + base = {} (in a steady flow 1000, the "
+             "weight, plus the divergence of the kinetic stress), kinetic push {}; if large grains "
+             "get the share p of mixed contacts, the contact push is ({}) (p - p*), p* = {}; {}",
              thousandths(series(&Forces::contact)), thousandths(series(&Forces::push_kinetic)),
              thousandths(series(slope_of)), with_error(zero(), 1, 3), agreement);
 }

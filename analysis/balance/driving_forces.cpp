@@ -6,16 +6,16 @@
 namespace grseg {
 namespace {
 
-// A species with a smaller share reaches the layer only by the tail of the kernel.
+// Least share of a species. Below it only the tail of the kernel of its grains reaches the layer.
 constexpr double least_part = 1e-9;
 
-/// A stress that both species share and its derivative along y.
+/// The yy components of a stress of both species, and their derivatives along y.
 struct Shared {
-  double small, large;              // N/m or Pa
-  double slope_small, slope_large;  // N/m^2 or N/m^3
+  double small, large;              // stress of each species, N/m or Pa
+  double slope_small, slope_large;  // its derivative, N/m^2 or N/m^3
 
   double part() const { return small + large > 0 ? large / (small + large) : no_number; }
-  /// 0 where there is no stress to share.
+  /// The push -(psi - phi) sigma'; 0 if there is no stress.
   double push(double phi) const
   {
     return small + large > 0 ? -(part() - phi) * (slope_small + slope_large) : 0;
@@ -64,14 +64,14 @@ DrivingForces driving_forces(const MomentumBalance<D>& balance, std::size_t laye
 
 namespace {
 
-/// The push -(psi - phi) times the `slope` of the mixture's stress `total`, N/m^2 or N/m^3; psi is
-/// the large grains' share of that stress. 0 where there is no stress.
+/// The push -(psi - phi) `slope`, N/m^2 or N/m^3. `slope` is the derivative of the mixture's stress
+/// `total`, and psi the large grains' share of this stress. 0 if there is no stress.
 double push_of(double psi, double phi, double total, double slope)
 {
   return total > 0 ? -(psi - phi) * slope : 0;
 }
 
-/// yy of the contact stress of both species and its derivative along y, under any rule.
+/// The yy component of the mixture's contact stress and its derivative along y, for any rule.
 template <int D>
 struct Mixture {
   Mixture(const PartitionedBalance<D>& contacts, std::size_t layer)

@@ -37,7 +37,7 @@ void MomentumBalance<D>::add(const Grains& grains, const Frame<D>& frame)
   assert(frame.force.size() == grains.size());
   ++frames_;
   if (!one_density_) one_density_ = have_one_density<D>(grains);
-  // The layers of this frame alone, so that its sums do not depend on the frames before it.
+  // Number of layers of this frame only, so that its sums do not depend on earlier frames.
   const std::size_t count = layers_.count(grains, frame);
   sums_.resize(std::max(sums_.size(), count), std::vector<SpeciesMomentum<D>>(species_));
   pull_.assign(grains.size(), Vector<D>::Zero());
@@ -64,7 +64,7 @@ void MomentumBalance<D>::add_contact(const Grains& grains, const Frame<D>& frame
   const double y_i = frame.position[i].y(), share_i = share_of_first(grains, list, contact);
   const double y_contact = y_i - share_i * list.branch[contact].y();
   const Tensor<D> stress = force * list.branch[contact].transpose();
-  // At the contact point a force from outside the species counts as that term, not as stress.
+  // At the contact point, a force from outside the species is `base` or `interaction`, not stress.
   const auto at_contact = [&](const auto& book) {
     share_kernel(layers_, kernel_, y_contact, y_contact, count, book);
   };
@@ -250,7 +250,7 @@ template <int D>
 void PartitionedBalance<D>::add_mixed(const Mixed& contact)
 {
   const auto& [radii, on_large, whole, large, small, y_large, y_small, rise] = contact;
-  // Lambdas take variables, not bindings (C++20 as clang 14 has it).
+  // Copies, because clang 14 does not let lambdas capture structured bindings.
   const Vector<D> force = on_large;
   const Tensor<D> stress = whole;
   const auto at_centre = [&, this](double y, std::size_t species, const Vector<D>& on) {

@@ -13,25 +13,25 @@
 
 namespace grseg {
 
-/// Coarse-grained fields of one species in one layer: means over the layer and over frames. The
-/// force densities, N/m^2 or N/m^3, change its momentum density.
+/// Coarse-grained fields of one species in one layer, averaged over the layer and over frames.
 template <int D>
 struct SpeciesMomentum {
-  double density = 0;  // kg/m^2 or kg/m^3
-  double content = 0;  // solid fraction, times a density where all grains have it
-  Vector<D> momentum = Vector<D>::Zero();        // kg/(m s) or kg/(m^2 s)
-  Tensor<D> contact_stress = Tensor<D>::Zero();  // N/m or Pa, compression positive
-  Tensor<D> momentum_flux = Tensor<D>::Zero();   // N/m or Pa, m v (x) v
+  double density = 0;  // mass density, kg/m^2 or kg/m^3
+  double content = 0;  // solid fraction, or `density` if all grains have one density
+  Vector<D> momentum = Vector<D>::Zero();        // momentum density, kg/(m s) or kg/(m^2 s)
+  Tensor<D> contact_stress = Tensor<D>::Zero();  // N/m or Pa, positive in compression
+  Tensor<D> momentum_flux = Tensor<D>::Zero();   // density of m v (x) v, N/m or Pa
 
+  // Force densities, N/m^2 or N/m^3; `force` has no part in the balance.
   Vector<D> rate = Vector<D>::Zero();         // change of the momentum density in one step, over h
-  Vector<D> gravity = Vector<D>::Zero();      // its weight
-  Vector<D> contact = Vector<D>::Zero();      // -d/dy of its contact stress
-  Vector<D> kinetic = Vector<D>::Zero();      // -d/dy of the momentum that its moving grains carry
-  Vector<D> interaction = Vector<D>::Zero();  // from the other species
-  Vector<D> base = Vector<D>::Zero();         // from boundary grains and walls
-  Vector<D> force = Vector<D>::Zero();        // the stored forces of its grains; rate - kinetic
+  Vector<D> gravity = Vector<D>::Zero();      // weight
+  Vector<D> contact = Vector<D>::Zero();      // -d/dy of the contact stress
+  Vector<D> kinetic = Vector<D>::Zero();      // -d/dy of the flux of momentum by moving grains
+  Vector<D> interaction = Vector<D>::Zero();  // force of the other species
+  Vector<D> base = Vector<D>::Zero();         // force of boundary grains and walls
+  Vector<D> force = Vector<D>::Zero();        // the grains' stored forces, equal to rate - kinetic
 
-  /// The rate less all terms: round-off.
+  /// The rate minus all terms of the balance: round-off.
   Vector<D> residual() const { return rate - (gravity + contact + kinetic + interaction + base); }
 
   static constexpr auto members = std::tuple(
@@ -42,11 +42,11 @@ struct SpeciesMomentum {
 };
 
 /// Momentum balance of each species by coarse graining over height (Goldhirsch 2010; Weinhart et
-/// al. 2012; for species Tunuguntla, Thornton & Weinhart 2016). S(y') is the part of the kernel of
-/// a point at height y' that lies in the layer (share_kernel). With y_i the stored height of a
-/// grain (mid-step), v its velocity after the solve, v_before its velocity before the solve, F = m
-/// (v - v_before)/h its stored force, f_ij a contact force and c the height of its contact point,
-/// all sums over V:
+/// al. 2012; for species Tunuguntla, Thornton & Weinhart 2016). S(y') is the integral over the
+/// layer of the kernel about height y' (share_kernel). A grain has the stored height y_i
+/// (mid-step), the velocities v_before and v before and after the solve, and the stored force F = m
+/// (v - v_before)/h. A contact has the force f_ij and the height c of its contact point. The terms,
+/// each divided by V, are
 ///
 ///   rate         sum (m/h) [v S(y_i + h v_y) - v_before S(y_i)]
 ///   gravity      sum m g S(y_i)
@@ -57,41 +57,41 @@ struct SpeciesMomentum {
 ///
 ///   rate = gravity + contact + kinetic + interaction + base
 ///
-/// to round-off in every frame: F = m g + sum f_ij for every grain, and at c the forces between two
-/// grains of one species cancel. The step reaches from just before the impulses of this mid-step to
-/// just before the impulses of the next, h later; in between grains fly straight, so that nothing
-/// is neglected. `contact` is exactly the flow in at the bottom of the layer less the flow out at
-/// its top, of the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij, and `kinetic`
-/// the same of the mean of sum m v v_y psi over that flight, which differs by O(h) from
-/// `momentum_flux` at its beginning.
+/// to round-off in every frame, because F = m g + sum f_ij for every grain, and the forces between
+/// two grains of one species cancel at c. The step reaches from just before the impulses of this
+/// mid-step to just before the impulses of the next one, h later. Grains fly straight in between,
+/// so nothing is neglected. `contact` is exactly the flux in at the bottom of the layer minus the
+/// flux out at its top, for the contact stress f_ij (x) (r_i - c_ij) on the line from r_i to c_ij.
+/// `kinetic` is this difference for the mean of sum m v v_y psi over the flight, which differs by
+/// O(h) from `momentum_flux` at the beginning of the flight.
 ///
-/// Over frames of consecutive steps the rates add up to the change of momentum; over frames further
-/// apart they are a sample of it, whose expectation is `change`.
+/// Over frames of consecutive steps the rates add up to the change of momentum. For frames further
+/// apart they are a sample, whose expectation is change().
 template <int D>
 class MomentumBalance {
  public:
-  /// Gravity in m/s^2, step h in s.
+  /// `gravity` in m/s^2, `step` h in s.
   MomentumBalance(const Layers& layers, const Kernel& kernel, const Gravity<D>& gravity,
                   double step, std::size_t species = 2);
 
-  /// Frames come in order of time, with velocities, forces and contacts.
+  /// Adds a frame with velocities, forces and contacts. Frames must be added in order of time.
   void add(const Grains& grains, const Frame<D>& frame);
-  /// Adds the frames of `later`, which come after those here.
+  /// Adds the frames of `later`, which must be later than all frames here.
   void merge(const MomentumBalance& later);
 
   std::size_t layers() const { return sums_.size(); }
   std::size_t species() const { return species_; }
   SpeciesMomentum<D> mean(std::size_t layer, Species species) const;
-  /// Change of the momentum density from the first frame to the last over the time between them,
-  /// N/m^2 or N/m^3; NaN of a single frame, and where grains came or went in between, since they
-  /// bring momentum or take it.
+  /// Change of the momentum density from the first to the last frame, divided by the time between
+  /// them, N/m^2 or N/m^3. NaN for a single frame, or if grains entered or left the run in between,
+  /// because they change the momentum.
   Vector<D> change(std::size_t layer, Species species) const;
 
  private:
   /// Momentum just before the impulses of one frame, kg m/s, by layer and species.
   struct Instant {
-    double time;           // s
-    std::uint64_t grains;  // which_are_absent()
+    double time;           // time of the frame, s
+    std::uint64_t grains;  // value of which_are_absent(), to compare the grains of frames
     std::vector<std::vector<Vector<D>>> momentum;
     Vector<D> at(std::size_t layer, Species species) const;
   };
@@ -109,54 +109,55 @@ class MomentumBalance {
   double step_;
   std::size_t species_;
   std::size_t frames_ = 0;
-  std::optional<bool> one_density_;                    // of all grains, once some are added
-  std::vector<std::vector<SpeciesMomentum<D>>> sums_;  // by layer and species, times V
+  std::optional<bool> one_density_;  // true if all grains have one density; set by the first frame
+  std::vector<std::vector<SpeciesMomentum<D>>> sums_;  // by layer, then species; times V
   std::optional<Instant> first_, last_;
-  bool same_grains_ = true;      // in all frames
-  std::vector<Vector<D>> pull_;  // N, sum of all contact forces on each grain of this frame
+  bool same_grains_ = true;      // true if all frames have the same grains
+  std::vector<Vector<D>> pull_;  // sum of the contact forces on each grain of the frame, N
 };
 
-/// Forces and stress of the contacts of one species in one layer under a partition rule; means over
-/// the layer and over frames. Force densities N/m^2 or N/m^3, stress N/m or Pa, compression
-/// positive.
+/// Forces and stress of the contacts of one species in one layer under a partition rule, averaged
+/// over the layer and over frames. Force densities are in N/m^2 or N/m^3, stress in N/m or Pa,
+/// positive in compression.
 template <int D>
 struct PartitionedForces {
   Tensor<D> stress = Tensor<D>::Zero();
-  Vector<D> contact = Vector<D>::Zero();      // C = -d/dy of that stress
-  Vector<D> interaction = Vector<D>::Zero();  // beta, from the other species
-  Vector<D> base = Vector<D>::Zero();         // from boundary grains and walls, under any rule
+  Vector<D> contact = Vector<D>::Zero();      // C = -d/dy of `stress`
+  Vector<D> interaction = Vector<D>::Zero();  // force beta of the other species
+  Vector<D> base = Vector<D>::Zero();         // force of boundary grains and walls; for any rule
 
   static constexpr auto members =
       std::tuple(&PartitionedForces::stress, &PartitionedForces::contact,
                  &PartitionedForces::interaction, &PartitionedForces::base);
-  /// N: the same under every rule, to round-off.
+  /// Contact force N, the same under every rule to round-off.
   Vector<D> sum() const { return contact + interaction + base; }
 };
 
 /// The contact forces on each species under several partition rules. A rule cuts the branch of a
-/// mixed contact: with the share p of the larger grain (of the species of larger diameter) the cut
-/// is p of the branch away from that grain's centre. Up to the cut the contact is a stress of the
-/// larger grain's species, from there on one of the smaller grain's, and at the cut the two species
-/// act on each other. With S(y') as in MomentumBalance, y_i the height of a grain, c the height of
-/// the cut and f_ij the force on i, sums over V:
+/// mixed contact: if p is the share of the larger grain (of the species of larger diameter), the
+/// cut is at p times the branch from that grain's centre. On this side of the cut the contact adds
+/// to the stress of the larger grain's species, on the other side to the stress of the smaller
+/// one's species. At the cut the two species act on each other. S(y') is defined in
+/// MomentumBalance, y_i is the height of grain i, c the height of the cut, and f_ij the force on i.
+/// Divided by V, the sums are
 ///
 ///   contact      C    = sum f_ij [S(y_i) - S(c)]   = -d/dy of the species' stress, exactly
 ///   interaction  beta = sum f_ij S(c)              over contacts with the other species
-///   base              = sum f_ij S(c)              over contacts with the boundary, c where they
-///                                                  touch, under any rule
+///   base              = sum f_ij S(c)              over contacts with the boundary; c: height of
+///                                                  the contact point, under any rule
 ///   C + beta + base   = N = sum f_ij S(y_i)
 ///
-/// N is the contact force on the species' grains, each booked at its own centre; in a steady flow
-/// minus their weight plus the divergence d/dy K of their kinetic stress. The rule is not in it: a
-/// rule is a gauge, which moves stress into interaction and back. Under `drop` both grains are cut
-/// at their own centres, so that mixed contacts are interaction alone.
+/// N is the contact force on the species' grains, each added at the height of its own centre. In a
+/// steady flow it is minus their weight plus the divergence d/dy K of their kinetic stress. N does
+/// not depend on the rule: a rule is a gauge, which moves stress into interaction and back. Under
+/// `drop` a mixed contact is cut at both centres, so that it is interaction only.
 template <int D>
 class PartitionedBalance {
  public:
   PartitionedBalance(const Layers& layers, const Kernel& kernel, std::vector<PartitionRule> rules,
                      std::size_t species = 2);
 
-  /// Frames with contacts, in any order. Without rules nothing is summed.
+  /// Adds a frame with contacts, in any order. Without rules nothing is summed.
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const PartitionedBalance& others);
 
@@ -164,32 +165,33 @@ class PartitionedBalance {
   std::size_t species() const { return species_; }
   const std::vector<PartitionRule>& rules() const { return rules_; }
 
-  /// Under the rule number `rule`.
+  /// Forces and stress under the rule rules()[rule].
   PartitionedForces<D> mean(std::size_t layer, Species species, std::size_t rule) const;
-  /// N, summed over grains and not from its parts.
+  /// Contact force N, summed directly over grains, N/m^2 or N/m^3.
   Vector<D> contact_force(std::size_t layer, Species species) const;
-  /// Stress of the contacts of the species with its own kind and with the base: no rule touches it.
+  /// Stress of contacts within the species and with the base, which does not depend on the rule.
   Tensor<D> unmixed_stress(std::size_t layer, Species species) const;
-  /// Stress of all mixed contacts, their whole branches.
+  /// Stress of the whole branches of all mixed contacts.
   Tensor<D> mixed_stress(std::size_t layer) const;
 
  private:
-  struct LayerSums {                            // times V
-    std::vector<PartitionedForces<D>> unmixed;  // by species
-    std::vector<Vector<D>> at_centre;           // by species
-    std::vector<PartitionedForces<D>> mixed;    // by rule and species
-    Tensor<D> whole = Tensor<D>::Zero();        // of mixed contacts
+  /// Sums of one layer over frames, times V.
+  struct LayerSums {
+    std::vector<PartitionedForces<D>> unmixed;  // contacts within a species or with the base
+    std::vector<Vector<D>> at_centre;           // contact forces N, by species
+    std::vector<PartitionedForces<D>> mixed;    // mixed contacts, by rule, then species
+    Tensor<D> whole = Tensor<D>::Zero();        // stress of mixed contacts
     static constexpr auto members = std::tuple(&LayerSums::unmixed, &LayerSums::at_centre,
                                                &LayerSums::mixed, &LayerSums::whole);
   };
-  /// A contact between two species, seen from its larger grain.
+  /// A contact between two species.
   struct Mixed {
     MixedContact radii;
-    Vector<D> force;           // N, on the larger grain
-    Tensor<D> stress;          // N m, force (x) branch
-    std::size_t large, small;  // species
-    double y_large, y_small;   // m, of the centres
-    double rise;               // m, of the branch from the smaller grain's centre to the larger's
+    Vector<D> force;           // force on the larger grain, N
+    Tensor<D> stress;          // force (x) branch, N m
+    std::size_t large, small;  // species of the grains
+    double y_large, y_small;   // heights of the centres, m
+    double rise;               // height of the larger grain's centre above the smaller's, m
   };
 
   void grow_to(std::size_t layers);
@@ -201,7 +203,7 @@ class PartitionedBalance {
   std::vector<PartitionRule> rules_;
   std::size_t species_;
   std::size_t frames_ = 0;
-  std::size_t count_ = 0;  // layers of the frame that is being added
+  std::size_t count_ = 0;  // number of layers of the frame that is being added
   std::vector<LayerSums> sums_;
 };
 

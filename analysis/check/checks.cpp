@@ -19,19 +19,19 @@ const std::array<CheckTolerances::Option, 12>& CheckTolerances::options()
 {
   using T = CheckTolerances;
   static const std::array<Option, 12> all{
-      {{"round-off", &T::round_off, "deviation of quantities that hold to round-off, relative"},
-       {"single-precision", &T::single_precision, "likewise, in files that store float32"},
-       {"mean-overlap", &T::mean_overlap, "mean overlap of the pairs that overlap, d_S"},
-       {"largest-overlap", &T::largest_overlap, "largest overlap, d_S"},
-       {"mean-approach", &T::mean_approach, "mean deficit of separation velocity, d_S per step"},
-       {"largest-approach", &T::largest_approach, "largest such deficit, d_S per step"},
+      {{"round-off", &T::round_off, "tolerance of checks that hold to round-off, relative"},
+       {"single-precision", &T::single_precision, "the same tolerance, for files in float32"},
+       {"mean-overlap", &T::mean_overlap, "tolerance of overlap_mean, d_S"},
+       {"largest-overlap", &T::largest_overlap, "tolerance of overlap_largest, d_S"},
+       {"mean-approach", &T::mean_approach, "tolerance of approach_mean, d_S per step"},
+       {"largest-approach", &T::largest_approach, "tolerance of approach_largest, d_S per step"},
        {"false-alarm", &T::false_alarm,
         "probability that a statistical check fails by chance alone"},
-       {"weight", &T::weight, "load of a layer against the weight above it, relative"},
-       {"stress-ratio", &T::slope, "stress ratio of a layer against the tangent of the slope"},
-       {"overlap-drift", &T::overlap_drift, "change of the mean overlap over the run, d_S"},
-       {"x-drift", &T::x_drift, "mean velocity by positions less that by velocities, sqrt(g d_S)"},
-       {"least-load", &T::least_load, "leave out layers with less than this part of the load"}}};
+       {"weight", &T::weight, "tolerance of weight: load of a layer over weight above, minus 1"},
+       {"stress-ratio", &T::slope, "tolerance of slope and slope_across, ratio of stresses"},
+       {"overlap-drift", &T::overlap_drift, "tolerance of overlap_drift, d_S over the run"},
+       {"x-drift", &T::x_drift, "tolerance of x_drift and z_drift, sqrt(g d_S)"},
+       {"least-load", &T::least_load, "skip layers whose load over the first layer's is less"}}};
   return all;
 }
 
@@ -125,7 +125,7 @@ std::string CheckReport::undecided() const
     return of.second > 1 ? fmt::format("{} ({} layers)", of.first, of.second) : of.first;
   });
   return fmt::format(
-      "undecided, since chance alone explains more than the tolerance: {}; a longer run decides",
+      "undecided, because chance alone can exceed the tolerance: {}; a longer run decides",
       fmt::join(names, ", "));
 }
 

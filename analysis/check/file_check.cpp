@@ -45,7 +45,8 @@ SpecificationCheck::SpecificationCheck(const TrajectoryReader& run)
   check_observables();
 }
 
-/// The first departure of a path describes it; further ones are counted.
+/// Records a deviation from the specification. For each path the first deviation is described,
+/// further ones are only counted.
 void SpecificationCheck::depart(const std::string& path, const std::string& what)
 {
   auto& all = layout_.departures;
@@ -97,12 +98,12 @@ void SpecificationCheck::check_observables()
   }
 }
 
-/// Positions along x (axis 0) or z (axis 2) lie in the cell.
+/// Checks that positions along x (axis 0) or z (axis 2) are within the periodic cell.
 template <int D>
 void SpecificationCheck::check_wrapped(std::size_t index, const Frame<D>& frame, int axis,
                                        double length)
 {
-  // Single precision may round a position just below the length up to it.
+  // Single precision may round a position just below the length of the cell up to this length.
   const bool rounded = run_.stores_float32();
   const auto wrapped = [&](double x) {
     return x >= 0 && (rounded ? x <= static_cast<float>(length) : x < length);

@@ -11,14 +11,14 @@
 
 namespace grseg {
 
-/// Checks a file against what was written: it was closed, has frames, and each frame and what is
-/// there once agree with their digests. TrajectoryReader refuses files that cannot be read at all.
+/// Checks that a file is undamaged: it was closed, has frames, and its frames and its content
+/// outside frames agree with their digests. TrajectoryReader refuses files that cannot be read.
 class ContentCheck {
  public:
-  /// `run` is best opened with Verify::no, so that all damaged frames are counted.
+  /// Open `run` with Verify::no, so that all damaged frames are counted.
   explicit ContentCheck(const TrajectoryReader& run) : run_(run) {}
 
-  /// Any frame, whole (all of TrajectoryReader::Fields).
+  /// Checks a frame, which must have been read with all TrajectoryReader::Fields. Any order.
   template <int D>
   void add(std::size_t index, const Frame<D>& frame);
   std::vector<CheckLine> lines() const;
@@ -28,21 +28,21 @@ class ContentCheck {
   std::size_t frames_ = 0, damaged_ = 0, first_damaged_ = 0;
 };
 
-/// Compares a file with formats/README.md, beyond what TrajectoryReader requires (numbers finite,
-/// indices in range, offsets and times increasing, radii and masses positive, species in the list):
-/// its layout (formats/trajectory/layout_check.hpp), which datasets it must have, and in which
-/// range their values lie.
+/// Compares a file with its specification, formats/README.md: its layout (layout_check.hpp of
+/// formats/trajectory), required datasets and ranges of values. TrajectoryReader has already
+/// checked that numbers are finite, indices in range, offsets and times increasing, radii and
+/// masses positive, and species in the list.
 class SpecificationCheck {
  public:
-  /// Reads the whole file once; throws as check_layout does.
+  /// Reads the whole file once; throws the errors of check_layout().
   explicit SpecificationCheck(const TrajectoryReader& run);
 
-  /// Any frame, with contacts.
+  /// Checks a frame, which must have been read with all TrajectoryReader::Fields. Any order.
   template <int D>
   void add(std::size_t index, const Frame<D>& frame);
 
-  /// `specification`, the number of paths that depart from it; then a line for each of these paths,
-  /// with the number of departures.
+  /// Line `specification` with the number of paths that deviate, then a line for each of these
+  /// paths with its number of deviations.
   std::vector<CheckLine> lines() const;
 
  private:

@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// N: the largest of the frame's contact forces and of the mobile grains' weights.
+/// Largest of all contact forces of the frame and all weights of mobile grains, N.
 template <int D>
 double largest_force(const Grains& grains, const Frame<D>& frame, const Gravity<D>& gravity)
 {
@@ -54,7 +54,7 @@ void ForceBalance<D>::add(const Grains& grains, const Frame<D>& frame)
     else
       now.torque[g] = no_spin<D>();
   }
-  // A part of a step does not show what the torques of the others have done.
+  // If a step was divided, the frame has only the torques of its last part: no check is possible.
   const bool is_whole = step_of_force(frame, step_) > 0.99 * step_;
   if (is_whole && !last_.inertia_times_spin.empty()) add_torques(last_, now);
   last_ = std::move(now);
@@ -84,7 +84,7 @@ void ForceBalance<D>::add_torques(const Turning& before, const Turning& after)
   for (std::size_t g = 0; g < after.torque.size(); ++g) {
     const Spin<D> change = (after.inertia_times_spin[g] - before.inertia_times_spin[g]) / step_;
     const double defect = size_of(Spin<D>(after.torque[g] - change));
-    if (std::isnan(defect)) continue;  // a grain that is absent before or after
+    if (std::isnan(defect)) continue;  // the grain is absent in one of the two frames
     torques.add(after.scale > 0 ? defect / after.scale : defect, after.time, g);
   }
 }
@@ -153,7 +153,7 @@ double largest_component(const Tensor<D>& t)
   return t.cwiseAbs().maxCoeff();
 }
 
-/// x_i - x_j of the nearest image, m; at a straight wall the branch.
+/// x_i - x_j (m) to the nearest periodic image of j; at a straight wall the branch.
 template <int D>
 Vector<D> between_centres(const Frame<D>& frame, const Box& box, std::size_t contact)
 {
@@ -170,7 +170,7 @@ Vector<D> between_centres(const Frame<D>& frame, const Box& box, std::size_t con
   return apart;
 }
 
-/// Sums over the contact ends on the grains of each species, N m.
+/// By species: sum over contact ends on its grains of (force on the grain) (x) (x - c), N m.
 template <int D>
 std::vector<Tensor<D>> sums_of_ends(const Grains& grains, const Frame<D>& frame, const Box& box,
                                     std::size_t species)
@@ -204,7 +204,7 @@ Tensor<D> sum_of(const std::vector<Tensor<D>>& tensors)
 template <int D>
 void StressClosure<D>::add(const Grains& grains, const Frame<D>& frame)
 {
-  // One layer that holds the whole bed.
+  // A single layer that contains the whole bed.
   constexpr double higher_than_any_bed = 1e6;  // m
   PartialContactStress<D> stress(Layers(higher_than_any_bed, 1), Assignment::contact_point, {}, {},
                                  species_);
@@ -254,15 +254,15 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
     rules.look_ahead = 1;
   } else if (law == "speculative") {
     rules.look_ahead = rules.horizon = parameters.number("horizon", run.path());
-    // For files without /parameters/contact_margin.
+    // The margin of files without /parameters/contact_margin.
     const double by_gravity =
         rules.horizon * rules.step * std::sqrt(size_of_gravity(run) * run.small_diameter());
     rules.margin =
         std::max(rules.margin, parameters.find_number("contact_margin").value_or(by_gravity));
   } else {
     throw FormatError(fmt::format(
-        "{}: /parameters/contact_law is '{}', which this grseg-check does not know; use the "
-        "grseg-check of the version that made the run",
+        "{}: /parameters/contact_law is '{}', which this version of grseg-check does not support; "
+        "use the version that made the run",
         run.path(), law));
   }
   return rules;
@@ -270,7 +270,7 @@ ContactRules read_contact_rules(const TrajectoryReader& run)
 
 namespace {
 
-/// Relative velocities of i against j, m/s, after the step and before it.
+/// Velocities of grain i relative to grain j, m/s, after and before the step.
 template <int D>
 struct Approach {
   Vector<D> after, before;
@@ -328,13 +328,13 @@ void ContactViolations::add_motion(const Grains& grains, const Frame<D>& frame, 
   const auto relative = approach_of(grains, frame, contact, rules_.step);
   if (bears) {
     const Vector<D> flight = rules_.look_ahead * rules_.step * relative.before;
-    // The distance from a straight wall is along its normal.
+    // Distance from a straight wall is measured along the normal of the wall.
     const double distance =
         contacts.j[contact] < 0 ? branch.norm() + flight.dot(n) : (branch + flight).norm();
     open_gap.add(std::max(0.0, distance - reach - rules_.margin), frame.time, contact);
   }
   if (!rules_.restitution) return;
-  // Files of other programs may list pairs that are merely close.
+  // Imported files may list pairs that are close but do not touch.
   if (gap > 0 && !bears && rules_.horizon == 0) return;
   double least = -*rules_.restitution * relative.before.dot(n);
   if (gap > 0)

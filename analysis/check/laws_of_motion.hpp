@@ -11,13 +11,13 @@
 
 namespace grseg {
 
-/// The largest and the mean of violations at many places, none of them negative, and the place of
-/// the largest.
+/// Largest value, mean, and place of the largest value, of the violations (>= 0) of a law by many
+/// grains or contacts in many frames.
 struct WorstCase {
-  double largest = 0, sum = 0;
-  double count = 0;        // of the places
-  double time = 0;         // s, of the largest
-  std::size_t number = 0;  // of the grain or contact of the largest
+  double largest = 0, sum = 0;  // largest violation; sum of all violations
+  double count = 0;             // number of violations added
+  double time = 0;              // time of the largest violation, s
+  std::size_t number = 0;       // grain or contact with the largest violation
 
   void add(double value, double at, std::size_t what)
   {
@@ -32,79 +32,81 @@ struct WorstCase {
   double mean() const { return count > 0 ? sum / count : 0; }
 };
 
-/// Newton's and Euler's laws for every mobile grain, in the step that a frame stands for:
+/// Checks Newton's and Euler's laws for every mobile grain in the time step of a frame:
 ///   sum of its contact forces + m g = m (v_after - v_before)/h, which the file stores as `force`;
-///   sum of its torques = I (w_after - w_before)/h, where two frames are consecutive steps; I is
-///   m r^2/2 of a disc and 2/5 m r^2 of a sphere.
-/// The force between two grains acts at r_i/(r_i + r_j) of the branch, so that the lever arms add
-/// up to the distance of the centres; at a straight wall the arm is r_i. Both laws hold to
-/// round-off, whatever the solver's tolerance.
+///   sum of its torques = I (w_after - w_before)/h, if two frames are consecutive steps;
+///   I = m r^2/2 for a disc and 2/5 m r^2 for a sphere.
+/// The force between two grains acts at the fraction r_i/(r_i + r_j) of the branch, so that the
+/// lever arms add up to the distance of the centres; at a straight wall the arm is r_i. Both laws
+/// hold to round-off for any tolerance of the solver.
 template <int D>
 class ForceBalance {
  public:
-  /// Gravity and the step h, s.
+  /// `step` is the time step h, s.
   ForceBalance(const Gravity<D>& gravity, double step) : gravity_(gravity), step_(step) {}
 
-  /// Frames in order. A frame without `force` counts for torques only.
+  /// Adds the next frame, in order of time. A frame without `force` is checked for torques only.
   void add(const Grains& grains, const Frame<D>& frame);
 
-  /// |defect| over the frame's largest force, weights included; by grain.
+  /// Residual of Newton's law of a grain, over the frame's largest force (weights included).
   WorstCase forces;
-  /// |defect| over that force times the largest radius; empty where no frames are consecutive,
-  /// or their steps were taken in parts.
+  /// Residual of Euler's law of a grain, over (largest force x largest radius). Empty if no frames
+  /// are consecutive steps, or if the simulator divided these steps into parts.
   WorstCase torques;
 
  private:
   struct Turning {
     std::int64_t step = 0;
-    double time = 0, scale = 0;               // s, N m
-    std::vector<Spin<D>> inertia_times_spin;  // kg m^2/s; of mobile grains, 0 of others
-    std::vector<Spin<D>> torque;              // N m; of mobile grains, 0 of others
+    double time = 0, scale = 0;               // s; largest force x largest radius, N m
+    std::vector<Spin<D>> inertia_times_spin;  // by grain, kg m^2/s; 0 for grains that do not move
+    std::vector<Spin<D>> torque;              // by grain, N m; 0 for grains that do not move
   };
   void add_forces(const Grains& grains, const Frame<D>& frame, double scale);
   void add_torques(const Turning& before, const Turning& after);
 
   Gravity<D> gravity_;
   double step_;
-  Turning last_;  // of the last frame added; inertia_times_spin is empty before the first
+  Turning last_;  // spins and torques of the last frame added; empty before the first frame
 };
 
-/// The mobile grains of a frame as one body. Velocities are those after the step.
+/// Motion of all mobile grains of a frame as one body, with the velocities after the step.
 template <int D>
 struct TotalMotion {
   std::int64_t step = 0;
-  double time = 0;                         // s
-  double mass = 0;                         // kg
-  Vector<D> momentum = Vector<D>::Zero();  // kg m/s
-  double energy = 0;                       // J, kinetic, of translation
-  Vector<D> centre = Vector<D>::Zero();    // m, of mass, periods counted
-  std::uint64_t grains = 0;                // which_are_absent()
+  double time = 0;                         // time of the frame, s
+  double mass = 0;                         // total mass, kg
+  Vector<D> momentum = Vector<D>::Zero();  // total momentum, kg m/s
+  double energy = 0;                       // kinetic energy of translation, J
+  Vector<D> centre = Vector<D>::Zero();    // centre of mass, m, from unwrapped positions
+  std::uint64_t grains = 0;                // which_are_absent() of the frame
 };
 template <int D>
 TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box);
 
-/// The mobile grains as one body from frame to frame:
-///   momentum now - momentum before = (time between) (M g + mean force of base and walls),
-/// which holds to round-off where that mean (/observables/base_force_x, _y, and _z of spheres) is
-/// over all the steps between; and the distance that the centre of mass moves against the integral
-/// of its velocity over time (trapezium rule). Between frames of different grains neither is
-/// defined, and nothing counts.
+/// Checks the motion of all mobile grains as one body, from frame to frame:
+///   momentum now - momentum before = (time between) (M g + mean force of base and walls).
+/// This holds to round-off if the mean force (/observables/base_force_x, _y, and _z for spheres) is
+/// over all steps between the two frames. Also compares the distance that the centre of mass moves
+/// with the integral of its velocity (trapezium rule). Pairs of frames with different grains are
+/// skipped, because both quantities are then undefined.
 template <int D>
 class MotionBalance {
  public:
-  /// Gravity and the step, s.
+  /// `step` is the time step, s.
   MotionBalance(const Gravity<D>& gravity, double step) : gravity_(gravity), step_(step) {}
 
-  /// Frames in order; `base_force` (N) is the mean over the steps since the frame before.
+  /// Adds the next frame, in order of time. `base_force` (N) is the mean force of base and walls
+  /// over the steps since the frame before.
   void add(const TotalMotion<D>& now, const std::optional<Vector<D>>& base_force);
 
-  /// |defect| over the larger of the impulses of gravity and of the base, by frame.
+  /// Residual of the momentum balance, over the larger of the impulses of gravity and base.
   const WorstCase& momentum() const { return momentum_; }
 
   std::size_t frames() const { return frames_; }
-  /// True where all frames had the same grains.
+  /// True if all frames had the same grains.
   bool same_grains() const { return same_grains_; }
-  /// m: the distance moved along an axis less that by velocity, since the first frame.
+  /// Distance (m) that the centre of mass moved along an axis since the first frame, minus the
+  /// distance that follows from its velocity.
   double stray(int axis) const
   {
     return first_ ? last_.centre[axis] - first_->centre[axis] - by_velocity_[axis] : 0;
@@ -117,25 +119,25 @@ class MotionBalance {
   bool same_grains_ = true;
   std::optional<TotalMotion<D>> first_;
   TotalMotion<D> last_;
-  Vector<D> by_velocity_ = Vector<D>::Zero();  // m
+  Vector<D> by_velocity_ = Vector<D>::Zero();  // integral of the velocity since first_, m
   WorstCase momentum_;
 };
 
-/// Checks the sum of partial stresses: sigma^nu summed over the species nu is sigma in the whole
-/// bed (Staron & Phillips 2015, eq. 1), where
+/// Checks that the partial stresses sigma^nu of all species nu add up to the stress sigma of the
+/// whole bed (Staron & Phillips 2015, eq. 1), where
 ///   sigma^nu = (1/V) sum over contact ends on grains of nu of (force on the grain) (x) (x - c),
-/// c the contact point, from the positions x of the grains. sigma is made by PartialContactStress
-/// from the branches of the contacts. The stress of each species is also compared with
-/// PartialContactStress (rule contact-point), and the sum of all by size with the total.
+/// with the position x of the grain and the contact point c. sigma comes from PartialContactStress,
+/// which uses the branches of the contacts. Also compares each sigma^nu with PartialContactStress
+/// under the rule contact-point, and the sum over species under the rule size with the total.
 template <int D>
 class StressClosure {
  public:
-  /// `species`: of mobile grains.
+  /// `species` is the number of mobile species.
   StressClosure(const Box& box, std::size_t species) : box_(box), species_(species) {}
 
   void add(const Grains& grains, const Frame<D>& frame);
 
-  /// Largest component of the differences over the largest of sigma, by frame.
+  /// Largest component of all differences, over the largest component of sigma; one per frame.
   WorstCase defect;
 
  private:
@@ -145,50 +147,51 @@ class StressClosure {
 
 class TrajectoryReader;
 
-/// The contact law of a run, as its /parameters say; docs/studies/accuracy.md gives the laws.
+/// Contact law of a run, from its /parameters; docs/studies/accuracy.md describes the laws.
 struct ContactRules {
-  std::optional<double> friction;     // Coulomb's mu
-  std::optional<double> restitution;  // Newton's e
-  double step = 0;                    // h, s
-  /// Steps of free flight from mid-step after which a pair must touch to exert a force; 0: at
-  /// mid-step.
+  std::optional<double> friction;     // Coulomb's coefficient mu; empty if the file names none
+  std::optional<double> restitution;  // Newton's coefficient e; empty if the file names none
+  double step = 0;                    // time step h, s
+  /// A force is allowed between pairs that would touch after a free flight of this many steps from
+  /// mid-step; 0: pairs that touch at mid-step.
   double look_ahead = 0;
-  double margin = 0;     // m, within which a pair counts as touching then
-  std::string accuracy;  // preset of the solver, "" where the file names none
+  double margin = 0;     // largest gap after this flight at which a pair counts as touching, m
+  std::string accuracy;  // accuracy preset of the solver; "" if the file names none
   double horizon = 0;    // steps in which a pair that is still apart may close its gap; 0: may not
 };
 
-/// A run without the name of a law is one of pairs that touch at mid-step. FormatError where
-/// the law is not known. What a law means is decided in sim/contact/contact_law.hpp, which analysis
-/// must not include: a new law is named here, too.
+/// Reads the contact law. A run that names no law is treated as `touch` (pairs touch at mid-step).
+/// Throws FormatError for an unknown law. Laws are defined in sim/contact/contact_law.hpp, which
+/// analysis must not include, so a new law must be added to this function, too.
 ContactRules read_contact_rules(const TrajectoryReader& run);
 
-/// Largest departures of a run's contacts from the laws of Coulomb, Signorini and Newton. With n
-/// from j to i, f_n and f_t the parts of the force on i, and u the velocity of i relative to j
-/// along n (u' before the step, from `force`):
+/// Largest violations of the laws of Coulomb, Signorini and Newton by the contacts of a run. The
+/// unit vector n points from j to i; f_n and f_t are the components of the force on i; u is the
+/// velocity of i relative to j along n (u' before the step, computed from `force`):
 ///   Coulomb     |f_t| <= mu f_n                         (to round-off: each sweep ends with it)
 ///   tension     f_n >= 0                                (to round-off)
-///   open gap    a force acts only where the pair, after `look_ahead` steps of free flight at the
+///   open gap    a force acts only if the pair, after `look_ahead` steps of free flight at the
 ///               velocities before the step, would be within `margin` of touching  (to round-off)
-///   approach    u >= -e u' where the pair touches; where it does not, u >= -gap/(horizon h), or
-///               -e u' where that is less (to the solver's tolerance; the deficit turns into
-///               overlap, u h per step)
-///   overlap     of pairs with gap < 0
+///   approach    u >= -e u' if the pair touches; if not, u >= the smaller of -gap/(horizon h) and
+///               -e u'  (to the solver's tolerance; the missing velocity turns into overlap, u h
+///               per step)
+///   overlap     overlap of pairs with gap < 0
 class ContactViolations {
  public:
   explicit ContactViolations(const ContactRules& rules) : rules_(rules) {}
 
-  /// s, of the frames that follow: of the rules, unless steps were taken in parts.
+  /// Sets the time step (s) of the next frames, which differs from ContactRules::step if the
+  /// simulator divided a step.
   void use_step(double step) { rules_.step = step; }
   template <int D>
   void add(const Grains& grains, const Frame<D>& frame);
 
-  // By contact; forces over the largest contact force of the frame.
+  // Violations of contacts; f_max is the largest contact force of the frame.
   WorstCase coulomb;   // (|f_t| - mu f_n)/f_max
   WorstCase tension;   // -f_n/f_max
-  WorstCase open_gap;  // m, gap beyond the margin
-  WorstCase approach;  // m, deficit of velocity times h
-  WorstCase overlap;   // m
+  WorstCase open_gap;  // gap beyond the margin, m
+  WorstCase approach;  // missing separation velocity times h, m
+  WorstCase overlap;   // overlap of a pair, m
 
  private:
   template <int D>

@@ -51,7 +51,8 @@ namespace {
 
 using checks::named;
 
-// The last window only ends the one before it, and errors take three.
+// Number of windows that a statistical check needs: three for the error, and the last one, which
+// only marks the end of the window before.
 constexpr std::size_t least_windows = 4;
 constexpr const char* few_windows = "fewer than four windows";
 constexpr const char* no_energy_defect = "the file holds no /observables/energy_defect";
@@ -63,8 +64,8 @@ Layers layers_of(const TrajectoryReader& run, const std::string& layer)
           box.length_x, run.dimension() == 3 ? std::optional(box.length_z) : std::nullopt};
 }
 
-/// --begin, or the tilt at t = 0; the first frame of runs that end before. In steps, as windows are
-/// cut.
+/// First time step to check: --begin, else t = 0 (the tilt), else the first frame if the run ends
+/// before t = 0. Windows are cut by steps, too.
 std::int64_t first_step(const TrajectoryReader& run, const WindowSettings& settings)
 {
   if (settings.begin) return whole_steps(*settings.begin, run.step(), "--begin");
@@ -83,7 +84,7 @@ std::vector<double> observable_of(const TrajectoryReader& run, const std::string
   return run.has_observable(name) ? run.observable(name) : std::vector<double>{};
 }
 
-/// By frame; empty where the file does not have all its components.
+/// Force of base and walls (N) by frame; empty if the file does not have all components.
 template <int D>
 std::vector<Vector<D>> base_force_of(const TrajectoryReader& run)
 {
@@ -121,7 +122,7 @@ PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings
   try {
     windows_ = cut_into_windows(times_of(run), settings.windows).list;
   } catch (const RunError&) {
-    // A run too short for a window is still checked for all that needs none.
+    // A run that is too short for a window still gets all checks that need none.
   }
 }
 
@@ -131,7 +132,7 @@ bool PhysicsCheck<D>::in_window(std::size_t index) const
   return window_ < windows_.size() && index >= windows_[window_].frames.front();
 }
 
-/// True where no wall carries a part of the weight.
+/// True if no side wall carries a part of the weight.
 template <int D>
 bool PhysicsCheck<D>::is_periodic() const
 {
@@ -153,7 +154,7 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
   partials_.add(grains, frame);
   contacts_.use_step(step_of_force(frame, run_.step()));
   contacts_.add(grains, frame);
-  // Where energies are that small, their defect is round-off of the forces.
+  // At such small energies the energy defect is only round-off of the forces.
   const bool at_rest = total.energy < 1e-12 * total.mass * gravity_.norm() * small_diameter_;
   if (!energy_defect_.empty()) energy_.add(at_rest ? 0 : energy_defect_[index], frame.time, 0);
   if (!in_window(index)) return;
@@ -171,8 +172,8 @@ void PhysicsCheck<D>::begin_window(const Frame<D>& frame)
     weights_.emplace(layers_, gravity_.start, small_diameter_ / 2, run_.species().size());
 }
 
-/// Reads the frames of the window again: now that the mean velocity is known, stresses can be taken
-/// about it.
+/// Reads the frames of the window again: the kinetic stress needs the mean velocity, which is known
+/// only at the end of the window.
 template <int D>
 void PhysicsCheck<D>::end_window()
 {
@@ -253,7 +254,7 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
       line.remark += "; the tolerance is for --accuracy standard, and this run is a draft";
 }
 
-/// Why no layer can be held against the weight above it, or "".
+/// Reason why layers cannot be compared with the weight above them; "" if they can.
 template <int D>
 std::string PhysicsCheck<D>::why_no_layers() const
 {

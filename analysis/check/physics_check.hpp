@@ -22,45 +22,45 @@ struct Drift {
   double value, error;
 };
 
-/// Slope of the least-squares line through `values`, times the time it is taken over.
+/// Change of `values` over the time span: slope of the least-squares line, times the span.
 Drift change_over(const std::vector<double>& times, const std::vector<double>& values);
 /// Mean of independent values.
 Drift mean_of(const std::vector<double>& values);
 
-/// Sums over the frames before the first one of a window.
+/// Sums over all frames before the first frame of a window.
 struct RunningSums {
-  double time = 0;                     // s
-  double stray = 0, stray_across = 0;  // m, MotionBalance::stray along x and z
-  double overlap = 0, overlaps = 0;    // m, and the number of pairs
-  double energy_defect = 0, frames = 0;
+  double time = 0;                       // time of the first frame of the window, s
+  double stray = 0, stray_across = 0;    // MotionBalance::stray along x and z, m
+  double overlap = 0, overlaps = 0;      // sum of overlaps, m; number of overlapping pairs
+  double energy_defect = 0, frames = 0;  // sum of relative energy defects; number of frames
 };
 
-/// Means of the windows, from the sums at the beginning of each; the last window only ends the one
-/// before it.
+/// Means over each window, from the differences of RunningSums. The last window has no mean: it
+/// only marks the end of the window before.
 struct WindowMeans {
-  std::vector<double> time;     // s, middle
-  std::vector<double> overlap;  // m
-  std::vector<double> energy_defect;
-  std::vector<double> stray_rate, stray_rate_across;  // m/s
+  std::vector<double> time;                           // middle of the window, s
+  std::vector<double> overlap;                        // mean overlap, m
+  std::vector<double> energy_defect;                  // mean relative energy defect
+  std::vector<double> stray_rate, stray_rate_across;  // change of `stray` per time, m/s
 
   explicit WindowMeans(const std::vector<RunningSums>& windows);
 };
 
 struct PhysicsSettings {
-  std::string layer = "4dS";
+  std::string layer = "4dS";  // thickness of the layers, as text
   WindowSettings windows;
   CheckTolerances tolerances;
 };
 
-/// Holds a run against the laws that it should obey, the table of checks.hpp. Frames are added one
-/// by one and forgotten; checks that need data missing from the file are skipped, with the reason.
+/// Checks a run against the laws in the table of checks.hpp. Frames are added one by one and not
+/// stored. Checks that need data missing from the file are skipped, with the reason.
 template <int D>
 class PhysicsCheck {
  public:
   PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings& settings);
 
-  /// Frames in order, whole (all of TrajectoryReader::Fields); those before --begin (t = 0) and
-  /// from --end on are not used.
+  /// Adds the next frame, in order of time, read with all TrajectoryReader::Fields. Ignores frames
+  /// before --begin (default t = 0) and from --end on.
   void add(std::size_t index, const Frame<D>& frame);
   std::vector<CheckLine> lines() const;
 
@@ -86,7 +86,7 @@ class PhysicsCheck {
   ContactRules rules_;
   bool rotation_, has_force_ = true;
   Layers layers_;
-  std::int64_t begin_, end_;  // steps
+  std::int64_t begin_, end_;  // first checked time step, and the step after the last
   std::vector<Window> windows_;
 
   ForceBalance<D> forces_;
@@ -94,23 +94,23 @@ class PhysicsCheck {
   StressClosure<D> partials_;
   ContactViolations contacts_;
   WorstCase energy_;
-  std::vector<Vector<D>> base_force_;  // N, by frame; empty where the file does not have it
-  std::vector<double> energy_defect_;  // by frame; empty where the file does not have it
+  std::vector<Vector<D>> base_force_;  // N, by frame; empty if the file does not have it
+  std::vector<double> energy_defect_;  // relative, by frame; empty if the file does not have it
 
-  std::size_t window_ = 0;                // to which frames are being added
-  std::optional<WeightSums<D>> weights_;  // of this window
+  std::size_t window_ = 0;                // index of the current window
+  std::optional<WeightSums<D>> weights_;  // sums of the current window
   std::vector<WeightWindow<D>> weight_windows_;
   std::vector<RunningSums> window_starts_;
 };
 
-/// Checks to make besides the file's digests.
+/// Checks to make in addition to the digests of the file.
 struct ChecksAsked {
-  bool deep = false;                       // the specification
-  std::optional<PhysicsSettings> physics;  // none: not checked
+  bool deep = false;                       // true: compare with formats/README.md
+  std::optional<PhysicsSettings> physics;  // settings of the physics check; empty: no such check
 };
 
-/// Reads all frames once and gives the lines of the checks; `shown` hears how many frames are done.
-/// Errors as TrajectoryReader, SpecificationCheck and PhysicsCheck.
+/// Reads all frames once and returns the lines of all checks. Calls `shown` with the number of
+/// frames read so far. Throws the errors of TrajectoryReader, SpecificationCheck and PhysicsCheck.
 template <int D>
 std::vector<CheckLine> check_run(const TrajectoryReader& run, const ChecksAsked& asked,
                                  const std::function<void(std::size_t)>& shown = {});

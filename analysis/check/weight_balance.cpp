@@ -7,7 +7,7 @@
 namespace grseg {
 namespace {
 
-/// Sum of of(grain) times l by layer, over the mobile grains.
+/// By layer: sum over all mobile grains of of(grain) times l (WeightWindow).
 template <int D, class What, class Of>
 std::vector<What> moments_above(const Grains& grains, const Frame<D>& frame, const Layers& layers,
                                 const What& zero, const Of& of)
@@ -37,14 +37,14 @@ Vector<D> mean_of(const std::vector<Vector<D>>& values)
   return sum / static_cast<double>(values.size());
 }
 
-/// One layer window by window: the stress it carries and that which the balance requires, (xy, yy,
-/// zy), N/m or Pa.
+/// Stress of one layer in each window, and stress that the momentum balance requires; components
+/// (xy, yy, zy), N/m or Pa.
 template <int D>
 struct Series {
   std::vector<Vector<D>> carried, required;
 };
 
-/// Standard error of a mean from the deviations of its terms, whose sum is 0.
+/// Standard error of a mean from the deviations of its `count` terms (whose sum is 0).
 template <class Deviation>
 double standard_error(std::size_t count, const Deviation& deviation)
 {
@@ -68,7 +68,7 @@ Series<D> series_of(const std::vector<WeightWindow<D>>& windows, std::size_t lay
   return series;
 }
 
-/// Along axis 0 (x) or 2 (z).
+/// Stress ratio of a layer along axis 0 (x) or 2 (z).
 template <int D>
 LayerBalance::StressRatio ratio_of(const Series<D>& series, int axis)
 {
@@ -76,7 +76,7 @@ LayerBalance::StressRatio ratio_of(const Series<D>& series, int axis)
   LayerBalance::StressRatio result;
   result.ratio = -carried[axis] / carried.y();
   result.slope = -required[axis] / required.y();
-  // Change of a quotient with the numbers of one window.
+  // Contribution of one window to the deviation of the quotient -whole[axis]/whole.y().
   const auto change = [&](const Vector<D>& part, double ratio, const Vector<D>& whole) {
     return (-part[axis] - ratio * part.y()) / whole.y();
   };
@@ -142,7 +142,7 @@ void WeightSums<D>::add(const Grains& grains, const Frame<D>& frame)
   for (std::size_t n = 0; n < mass.size(); ++n) mass_above_[n] += mass[n];
 }
 
-/// Stress of contacts and motion of all species in a layer, times the layer's volume, N m.
+/// Contact stress plus kinetic stress of all species in a layer, times the layer's volume, N m.
 template <int D>
 Tensor<D> WeightSums<D>::whole_stress(std::size_t layer) const
 {

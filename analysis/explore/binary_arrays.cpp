@@ -14,7 +14,7 @@
 namespace grseg {
 namespace {
 
-/// The strongest level of libdeflate: a page is written once and opened often.
+/// Strongest compression level of libdeflate: a page is written once and opened often.
 constexpr int level = 12;
 
 std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes)
@@ -49,7 +49,7 @@ std::string BinaryArrays::base64() const
   using Iterator =
       base64_from_binary<transform_width<std::vector<std::uint8_t>::const_iterator, 6, 8>>;
   auto bytes = deflated(bytes_);
-  const auto missing = (3 - bytes.size() % 3) % 3;  // up to whole groups of three bytes
+  const auto missing = (3 - bytes.size() % 3) % 3;  // zeros that fill the last group of three bytes
   bytes.insert(bytes.end(), missing, 0);
   std::string text(Iterator(bytes.cbegin()), Iterator(bytes.cend()));
   text.replace(text.size() - missing, missing, missing, '=');

@@ -11,9 +11,9 @@
 
 namespace grseg {
 
-/// Named arrays of numbers for a page. All bytes together are one zlib stream in base64, which a browser
-/// can unpack. An array holds the lowest bytes of all its numbers, then the next ones, and so on,
-/// because they compress better in that order.
+/// Named arrays of numbers for a page. All arrays together form one zlib stream in base64, which a
+/// browser can unpack. Each array starts with the lowest byte of every number, then follow the second
+/// bytes of all numbers, and so on: this order compresses better.
 class BinaryArrays {
  public:
   /// Adds an array of unsigned numbers of 8, 16 or 32 bits, of floats or of doubles.
@@ -25,9 +25,9 @@ class BinaryArrays {
         values.size());
   }
 
-  /// {"x": {"type": "u16", "offset": 0, "length": 12}, ...}: offset in bytes, length in numbers.
+  /// {"x": {"type": "u16", "offset": 0, "length": 12}, ...}: `offset` counts bytes, `length` numbers.
   const nlohmann::ordered_json& directory() const { return directory_; }
-  /// All arrays. RunError where the memory does not suffice.
+  /// The compressed arrays as base64 text. Throws RunError if memory runs out.
   std::string base64() const;
 
  private:

@@ -34,7 +34,7 @@ Json rules_known()
   return rules;
 }
 
-/// Digest and bed of each run, as its file states them; the digest is checked when the run is read.
+/// Digest and bed of each run as written in its file. The digest is verified later, when the run is read.
 std::vector<RunIdentity> identities_of(const std::vector<std::string>& runs)
 {
   std::vector<RunIdentity> identities;

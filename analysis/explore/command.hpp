@@ -8,7 +8,8 @@ namespace grseg {
 /// The tab at which the page opens.
 enum class PageTab { explore, report };
 
-/// grseg-explore and grseg-report: the same page, opened at one of its tabs. Returns the exit code.
+/// Runs grseg-explore or grseg-report: both write the same page, which opens at tab `tab`. Returns the
+/// exit code.
 int write_explore_page(int argc, char** argv, const ToolInfo& info, PageTab tab);
 
 }  // namespace grseg

@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Builds a table by layer from windows: means weighted by the frames of each window.
+/// Builds a table with one row per layer: means over windows, weighted by the frames of each window.
 class LayerTable {
  public:
   LayerTable(const char* name, const char* tool, const char* note, std::vector<std::string> shown)
@@ -38,7 +38,7 @@ class LayerTable {
   {
   }
 
-  /// Adds a layer of one window; NaN and infinities count in no mean.
+  /// Adds the numbers of one layer in one window; NaN and infinities are left out of the means.
   void add(const Window& window, std::size_t layer, const std::vector<Cell>& cells)
   {
     if (columns_.empty()) columns_ = columns_of(cells);
@@ -51,7 +51,7 @@ class LayerTable {
         means_[layer][k].frames += frames;
       }
   }
-  /// The finished table, see layer_tables().
+  /// The finished table; layer_tables() describes its entries.
   Json take(const Layers& layers)
   {
     table_["columns"] = {"y0[m]", "y1[m]"};
@@ -73,7 +73,7 @@ class LayerTable {
   std::vector<std::vector<Mean>> means_;  // by layer and column
 };
 
-/// "sigma_S_yy[N/m]" for each species and component.
+/// Partial stress of each species and component, in columns such as "sigma_S_yy[N/m]".
 template <int D>
 std::vector<Cell> partial_cells(const PartialStress<D>& stress, const SpeciesList& species)
 {
@@ -211,7 +211,7 @@ Json balance_table(FrameLoop& loop)
   return table.take(layers);
 }
 
-/// First column about the whole bed in the table of grseg-segregation; columns of layers come before it.
+/// First column of grseg-segregation's table that describes the whole bed; columns before it describe layers.
 constexpr const char* first_of_bed = "yL[m]";
 
 template <int D>
@@ -222,7 +222,7 @@ Json segregation_of(FrameLoop& loop, const RowFilter& filter)
   SegregationTable<D> run(loop.layers(), small, large);
   const auto columns = SegregationTable<D>::columns();
   const auto first = std::ranges::find(columns, first_of_bed) - columns.begin();
-  // Begin and end of a window, or their names, and the cells of the row, or their names, about the bed.
+  // Begin and end of a window, then the row's cells that describe the bed; or the names of these columns.
   const auto of_bed = [&](auto begin, auto end, const auto& row) {
     Json all{begin, end};
     for (auto cell = row.begin() + first; cell != row.end(); ++cell) all.push_back(*cell);

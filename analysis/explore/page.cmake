@@ -1,5 +1,6 @@
-# Makes OUTPUT, the page of SOURCE as C++: its style and its program, bundled by ESBUILD with the d3 of
-# D3_FOLDER, stand inside it, and a policy with their digests lets a browser run these and nothing else.
+# Makes OUTPUT, a C++ file that contains the page of SOURCE. The page includes its style and its JavaScript,
+# which ESBUILD bundles with the d3 of D3_FOLDER. A content security policy with the digests of both lets a
+# browser run these and nothing else.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed ERROR_VARIABLE why OUTPUT_VARIABLE out)
   if(failed)
@@ -14,7 +15,7 @@ foreach(file main.js style.css)
       --outfile=${WORK}/${file})
 endforeach()
 
-# Digest 'sha256-...' of the text between the tags of an element.
+# Sets `result` to 'sha256-...', the digest of `file` as a content security policy writes it.
 function(digest file result)
   file(SHA256 ${file} hex)
   string(TOUPPER ${hex} hex)
@@ -29,7 +30,7 @@ digest(${WORK}/style.css style_digest)
 file(READ ${SOURCE}/index.html page)
 file(READ ${WORK}/main.js script)
 file(READ ${WORK}/style.css style)
-# Style and program are put in last, so that their text is not searched for marks.
+# Style and JavaScript are inserted last, so that {{...}} in their text is not replaced.
 string(REPLACE "{{style_digest}}" "${style_digest}" page "${page}")
 string(REPLACE "{{script_digest}}" "${script_digest}" page "${page}")
 string(REPLACE "{{style}}" "${style}" page "${page}")

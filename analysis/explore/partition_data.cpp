@@ -23,7 +23,7 @@ using Kind = PartitionRule::Kind;
 
 constexpr ScanRange grid{0, 1, 0.01};
 
-/// Rules whose stresses are in the page, which computes all other rules from them.
+/// Rules whose stresses are written into the page; the page computes stresses under other rules from them.
 struct GivenRule {
   const char* name;
   PartitionRule rule;
@@ -57,7 +57,7 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
   }
 }
 
-/// Means over time of each layer of all tables, as samples of a single window.
+/// Means over time of each layer, over all tables; the result looks like samples of a single window.
 FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair)
 {
   std::map<std::pair<double, double>, std::vector<const FitRow*>> rows;
@@ -88,7 +88,7 @@ FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair
   return data;
 }
 
-/// Contents of the tables of one kind, by window and layer (`samples`) and as means over time (`layers`).
+/// Data of all tables: by window and layer (`samples`), and as means over time (`layers`).
 struct Selected {
   std::vector<FitTable> tables;
   std::vector<Flow> flows;
@@ -108,7 +108,7 @@ Selected select(const std::vector<Table>& tables, const std::vector<PartitionRul
   return all;
 }
 
-/// Adds the large grains' stresses under power:Q. For two species only: the small grains have the rest.
+/// Adds the stresses of large grains under power:Q, for two species. The rest belongs to small grains.
 void add_powers(const StressTables& input, const PartitionSettings& settings, BinaryArrays& arrays)
 {
   std::vector<double> of_samples, of_layers;
@@ -148,7 +148,7 @@ Json rule_object(const RuleFit& fit, const std::vector<Flow>& flows)
           {"B", b_with_interval(fit)}};
 }
 
-/// B with its interval for each share p, and the p at which it is 0, for two species.
+/// B with its interval for each share p; for two species also p*, the share at which B is 0.
 Json scan_object(const Selected& selected, const PartitionSettings& settings)
 {
   const Bootstrap bootstrap(selected.samples.runs, settings.resampling.samples,

@@ -14,33 +14,33 @@
 
 namespace grseg {
 
-/// Exponents Q of power:Q between which a page interpolates: Chebyshev's points of [0, 4]. The share
-/// r_L^Q/(r_L^Q + r_S^Q), and with it every sum, is a smooth function of Q. The polynomial through these
-/// points is off by less than 1e-7 for radii r_L < 3 r_S, by less than 1e-9 for r_L < 2.4 r_S.
+/// Exponents Q of the rule power:Q at which sums are computed: Chebyshev points of [0, 4]. A page
+/// interpolates between them with a polynomial, because the share r_L^Q/(r_L^Q + r_S^Q), and with it
+/// every sum, is smooth in Q. The error is below 1e-7 for r_L < 3 r_S, below 1e-9 for r_L < 2.4 r_S.
 std::vector<double> power_nodes();
 inline constexpr double highest_power = 4;
 
 struct PartitionSettings {
   std::vector<PartitionRule>
-      rules;  // fitted here, with intervals; the page fits all others by itself
+      rules;  // rules fitted here, with intervals of B; the page computes B under all others
   FitSettings fit;
   FitFilters filters;
-  std::string pair;  // "": the first two species
+  std::string pair;  // the two species compared, "A,B"; "": the first two
   Resampling resampling{1000, 1};
 };
 
-/// The data from which a page finds B for any rule, and the results of grseg-fit, with intervals, for the
-/// rules of the settings. Adds to `arrays`
+/// Data from which a page computes B for any rule, and the results of grseg-fit, with intervals, for the
+/// rules of `settings`. A sample is one layer in one window. Adds to `arrays`, by sample:
 ///
-///   phi_large, weight, frames, window, begin, bottom, top   by sample, from fit_points() and its key
-///   none_, all_, size_, contact_point_, drop_ + small, large   by sample: stresses of the pair under
-///                           uniform:0, uniform:1, size, contact-point, drop; drop_total
-///   power_large             by node and sample, where there are nodes
+///   phi_large, frames, window, begin, bottom, top   composition and place, from fit_points() and its key
+///   none_, all_, size_, contact_point_, drop_ + small, large   stresses of the two species under
+///                           uniform:0, uniform:1, size, contact-point, drop; also drop_total
+///   power_large             by exponent of power_nodes() and sample; only if there are sums by power:Q
 ///
-/// and, with "layer_" before the name, the same arrays for the means over time of all layers. Stress under
-/// uniform:p is linear in p. Returns everything else as JSON. Its `two` is true if there are two species;
-/// only then do p*, the shares and B of neutral contacts have a meaning, since otherwise mixed contacts with
-/// other species count, too. Errors as select_fit_data and fit_points.
+/// The same arrays with the prefix "layer_" are means over time, by layer. Stress under uniform:p is
+/// linear in p. Returns everything else as JSON. Its entry `two` is true if the run has two species. Only
+/// then do p*, shares and B of neutral contacts have a meaning: with more species, mixed contacts with
+/// other species count, too. Throws the errors of select_fit_data and fit_points.
 nlohmann::ordered_json partition_data(const StressTables& input, const PartitionSettings& settings,
                                       BinaryArrays& arrays);
 

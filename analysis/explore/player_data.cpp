@@ -10,8 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds a list of all frames, one after the other, as codes of `q`, and returns the bounds and the step of
-/// the codes. With `widen`, the bounds of `q` are first widened to hold all numbers.
+/// Adds the numbers of one list of every frame as codes of `q`. If `widen` is true, the bounds of `q` are
+/// first widened to include all numbers. Returns the lower bound and the step of the codes.
 Json add_codes(const ShownRun& run, const char* name, std::vector<float> ShownFrame::*list,
                BinaryArrays& arrays, Quantisation q = {}, bool widen = true)
 {
@@ -25,7 +25,7 @@ Json add_codes(const ShownRun& run, const char* name, std::vector<float> ShownFr
   return {{"from", q.from()}, {"step", q.step()}};
 }
 
-/// Adds the positions of grains; along a periodic axis codes span the cell. Returns their bounds.
+/// Adds the positions of grains. If x is periodic, its codes span the cell. Returns the bounds of the codes.
 Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
 {
   const auto cell = box.periodic_x ? Quantisation(0, box.length_x) : Quantisation();
@@ -44,7 +44,7 @@ void add_pairs(const ShownRun& run, BinaryArrays& arrays)
     std::int32_t before = 0;
     for (std::size_t k = 0; k < frame.i.size(); ++k) {
       first.push_back(static_cast<Index>(frame.i[k] - before));
-      second.push_back(static_cast<Index>(frame.j[k]));  // -1 becomes the highest number
+      second.push_back(static_cast<Index>(frame.j[k]));  // wall -1 becomes the largest Index
       before = frame.i[k];
     }
   }
@@ -63,13 +63,13 @@ Json add_contacts(const ShownRun& run, BinaryArrays& arrays)
   for (const auto& frame : run.frames)
     offset.push_back(offset.back() + static_cast<std::uint32_t>(frame.i.size()));
   arrays.add("contact_offset", offset);
-  const Quantisation zero(0, 0);  // lies between the bounds
+  const Quantisation zero(0, 0);  // so that 0 lies between the bounds
   return {{"along", add_codes(run, "along", &ShownFrame::along, arrays, zero)},
           {"across", add_codes(run, "across", &ShownFrame::across, arrays, zero)}};
 }
 
-/// Adds the walls of each frame: as many as the last one has, NaN for walls not yet known. Returns their
-/// number.
+/// Adds the walls of each frame. Every frame has as many as the last frame; walls not yet known are NaN.
+/// Returns the number of walls.
 std::size_t add_walls(const ShownRun& run, BinaryArrays& arrays)
 {
   const std::size_t count = run.frames.empty() ? 0 : run.frames.back().walls.size();
@@ -125,7 +125,7 @@ double player_bytes(const TrajectoryReader& run, std::size_t frames)
                index = grains <= 1u << 15 ? sizeof(std::uint16_t) : sizeof(std::uint32_t),
                contacts = static_cast<double>(run.contacts()) / static_cast<double>(run.size());
   constexpr double code = sizeof(std::uint16_t);
-  // A plane cuts the contacts that lie no further away than a grain is wide.
+  // Estimate: the plane cuts contacts in a slab as thick as the largest grain.
   const double cut = box.dimension == 3 ? std::min(1.0, run.large_diameter() / box.length_z) : 1;
   return static_cast<double>(frames) *
          (grains * box.dimension * code + cut * contacts * (2 * index + 2 * code));

@@ -13,7 +13,7 @@
 
 namespace grseg {
 
-/// Codes of 16 bits for numbers between two bounds: 65,535 equally spaced values, and a code for NaN.
+/// Codes of 16 bits for numbers between two bounds: 65,535 equally spaced values, and one code for NaN.
 class Quantisation {
  public:
   static constexpr std::uint16_t none = 65535, last = 65534;
@@ -21,7 +21,7 @@ class Quantisation {
   Quantisation() = default;
   Quantisation(double from, double to) : from_(from), to_(to) {}
 
-  /// Widens the bounds to hold this number; NaN changes nothing.
+  /// Widens the bounds so that `value` lies between them; NaN changes nothing.
   void include(double value)
   {
     if (std::isnan(value)) return;
@@ -30,7 +30,7 @@ class Quantisation {
   }
   double from() const { return is_empty() ? 0 : from_; }
   double to() const { return is_empty() ? 0 : to_; }
-  /// Distance of two codes. A number differs from the value of its code by at most half of it.
+  /// Difference between the values of neighbouring codes. Coding a number changes it by at most half a step.
   double step() const { return (to() - from()) / last; }
 
   std::uint16_t code(double value) const
@@ -48,21 +48,23 @@ class Quantisation {
   double to_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Prepares a ShownRun for a page, with positions, radii in the plane and forces in 16 bits. Adds to `arrays`
+/// Packs a ShownRun for a page: positions, radii in the plane and forces become codes of 16 bits, each
+/// quantity with its own Quantisation. Adds to `arrays`
 ///
 ///   species (255: base), radius (m), row       by grain
-///   x, y, and of spheres cut_radius            by frame and grain: Quantisation "x", "y", "cut"
-///   contact_offset                             by frame and once more: where its contacts begin
-///   i, j, along, across                        by contact: i less the i of the contact before in its
-///                                              frame; wall w has j = 2^16 - 1 - w, or 2^32 - 1 - w if
-///                                              there are more than 2^15 grains; Quantisation "along",
-///                                              "across"
+///   x, y, and for spheres cut_radius           by frame and grain; codes "x", "y", "cut"
+///   contact_offset                             by frame, and one entry more at the end: number of the
+///                                              frame's first contact
+///   i, j, along, across                        by contact. i: difference to the i of the previous
+///                                              contact in the frame. j: wall w is 2^16 - 1 - w, or
+///                                              2^32 - 1 - w if there are more than 2^15 grains
 ///   walls                                      by frame and wall: normal x, y, offset (m)
 ///
-/// and returns bounds of the codes, numbers of things, times (s), steps and gravity (m/s^2) by frame.
+/// Returns the bounds of the codes, the numbers of grains and walls, and by frame time (s), step and
+/// gravity (m/s^2).
 nlohmann::ordered_json player_data(const ShownRun& run, const Box& box, BinaryArrays& arrays);
 
-/// Largest number of bytes of these arrays if `frames` frames are shown; for spheres an estimate.
+/// Upper bound of the size of these arrays, bytes, if `frames` frames are shown; for spheres an estimate.
 double player_bytes(const TrajectoryReader& run, std::size_t frames);
 
 }  // namespace grseg

@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The fits, "fit", or the reason why there are none, "why_no_fit".
+/// {"fit": the fits}, or {"why_no_fit": the reason why there are none}.
 Json fitted(const StressTables& input, PartitionSettings settings, const std::string& base,
             BinaryArrays& arrays)
 {
@@ -53,8 +53,8 @@ Json facts_of(const FrameLoop& loop)
   return facts;
 }
 
-/// Windows of the sums, s, and the coordinate of their bins: "layers" for heights, or as the line "bins" of
-/// the table names it.
+/// Begin and end of the windows of the sums, s, and the kind of their bins: "layers" by default, else the
+/// word in the line "bins" of the table.
 Json cut_of(const Table& sums)
 {
   const auto begin = sums.column("t0"), end = sums.column("t1");
@@ -82,7 +82,7 @@ Json player_of(const FrameLoop& loop, const ExploreSettings& s, BinaryArrays& ar
   });
 }
 
-/// The sums of a run: from the given table, or made here if it is null.
+/// Table of sums of a run: `given`, or made from the run if `given` is null.
 StressTables sums_of(FrameLoop& loop, const Table* given, const std::string& command)
 {
   if (given == nullptr) return make_stress_tables(loop, command);
@@ -90,7 +90,7 @@ StressTables sums_of(FrameLoop& loop, const Table* given, const std::string& com
   return {{*given}, {}};
 }
 
-/// The sums of all runs.
+/// Tables of sums of all runs, in order.
 StressTables together(const std::vector<RunOfPage>& runs)
 {
   auto all = runs.front().sums;
@@ -119,8 +119,8 @@ std::string text_of(const std::vector<double>& numbers)
 
 constexpr std::string_view summary_prefix = "summary_";
 
-/// Names and values of /parameters: of those named summary_*, or of all others but the texts that the page
-/// shows elsewhere.
+/// Names and values of /parameters. `of_summary`: parameters named summary_*; otherwise all other ones,
+/// except texts that the page shows elsewhere.
 Json parameters_of(const TrajectoryReader& run, bool of_summary)
 {
   Json all = Json::array();
@@ -163,16 +163,16 @@ void refuse_too_large(const ToolInfo& info, const po::variables_map& values,
     megabytes += 1e-6 * player_bytes(loop.run(), frames_to_show(loop, s).size());
   }
   if (megabytes <= most_megabytes) return;
-  // Divided by 1.5, since evenly_spaced() may show half as many more as asked for.
+  // Divided by 1.5, since evenly_spaced() may return up to 1.5 times the frames asked for.
   const double fewer = s.shown_frames * most_megabytes / megabytes / 1.5;
   throw UsageError(fmt::format(
-      "{}: about {} frames, as --frames {} has it, are {:.0f} MB of positions and forces, and a page "
-      "of more than {:.0f} MB does not open in every browser; {}",
+      "{}: about {} frames (--frames {}) are {:.0f} MB of positions and forces, and a page of more than "
+      "{:.0f} MB does not open in every browser; {}",
       printable(runs.front()) + (runs.size() > 1 ? " and the others" : ""), s.shown_frames,
       s.shown_frames, megabytes, most_megabytes,
-      fewer >= 1 ? fmt::format("take --frames {:.0f}, or a part of the run with --begin and --end",
+      fewer >= 1 ? fmt::format("use --frames {:.0f}, or a part of the run with --begin and --end",
                                std::floor(fewer))
-                 : "take a part of the run with --begin and --end, or grseg-render"));
+                 : "use a part of the run with --begin and --end, or grseg-render"));
 }
 
 RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,
@@ -207,7 +207,7 @@ Json fitted_together(const std::vector<RunOfPage>& runs, const ExploreSettings& 
 {
   try {
     return fitted(together(runs), s.partition, s.base, arrays);
-  } catch (const FormatError& different) {  // of discs and spheres: still they stand side by side
+  } catch (const FormatError& different) {  // e.g. discs and spheres; both are shown all the same
     return {{"why_no_fit", printable(different.what())}};
   }
 }

@@ -29,24 +29,25 @@ void ExploreSettings::add_to(po::options_description& options)
 {
   auto add = options.add_options();
   add("frames", po::value(&shown_frames)->default_value(shown_frames)->value_name("N"),
-      "show about N frames, in equal steps; sums use all frames");
-  const auto first = "rule that the page shows at first: " + list_of_rules("or");
+      "show about N frames, evenly spaced; B and all tables use all frames");
+  const auto first = "partition rule that is selected when the page opens: " + list_of_rules("or");
   add("partition", word_option(&start, words_of_rule()), first.c_str());
   add("rules", words_option(rules, words_of_rules()),
-      "rules that the report compares (default: stock, those of published codes)");
+      "rules that the report compares (default: stock, the rules of published programs)");
   add("component", word_option(&component, words_of(components)), list_of(components).c_str());
   add("base-part", word_option(&base, words_of(base_parts)),
-      ("part of contacts with base and walls: " + list_of(base_parts) +
+      ("grain's part of its contact with base or wall: " + list_of(base_parts) +
        " (default: as in the table)")
           .c_str());
   add("pair", po::value(&partition.pair)->value_name("A,B"),
-      "the two species that are compared, by name or number, if there are more (default: 1,2)");
+      "the two species to compare, by name or number, if there are more than two (default: 1,2)");
   add("heights",
       po::value(&partition.filters.heights)->value_name("y0:y1")->default_value(inside_the_bed),
-      fmt::format("layers that count for B: {}", heights_help).c_str());
+      fmt::format("layers from which B is computed: {}", heights_help).c_str());
   add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
-      "samples for the 95 % intervals; 0: no intervals");
-  add("seed", po::value(&seed)->default_value(seed)->value_name("N"), "seed of the samples");
+      "number of bootstrap samples for the 95 % intervals; 0: no intervals");
+  add("seed", po::value(&seed)->default_value(seed)->value_name("N"),
+      "seed of the random numbers that draw these samples");
   frames.add_to(options, FrameOptions::Makes::page);
 }
 
@@ -64,15 +65,15 @@ void ExploreSettings::check(const po::variables_map& values)
   if (first.kind == PartitionRule::Kind::power &&
       !(first.value >= 0 && first.value <= highest_power))
     throw UsageError(fmt::format(
-        "--partition {}: the page shows power:Q for Q from 0 to {:g}; for others take grseg-stress "
+        "--partition {}: the page shows power:Q for Q from 0 to {:g}; for another Q use grseg-stress "
         "and grseg-fit with --partition {}",
         first.name(), highest_power, first.name()));
   partition.rules = parse_rules(rules);
   for (const auto& rule : partition.rules)
     if (rule.definition().sum == PairSum::by_power)
       throw UsageError(fmt::format(
-          "--rules {}: the report compares rules whose sums every table has; move the slider to Q "
-          "instead, or take grseg-stress and grseg-fit with --partition {}",
+          "--rules {}: the report compares only rules that need no sums of their own; move the slider Q "
+          "of the page instead, or use grseg-stress and grseg-fit with --partition {}",
           rule.name(), rule.name()));
   auto& filters = partition.filters;
   filters.begin = frames.windows.begin.value_or(filters.begin);
@@ -96,8 +97,9 @@ ExploreInputs inputs_of(const po::variables_map& values)
     throw UsageError(
         inputs.tables.empty()
             ? "no run given; name a trajectory file, e.g. run.h5"
-            : fmt::format("{}: is not a run (HDF5); a page shows runs, and uses tables beside them",
-                          printable(inputs.tables.front())));
+            : fmt::format(
+                  "{}: is not a run (HDF5); give a run, e.g. run.h5, beside the tables of sums",
+                  printable(inputs.tables.front())));
   return inputs;
 }
 
@@ -115,7 +117,7 @@ po::variables_map with_inputs(const po::variables_map& values,
 
 namespace {
 
-/// " NAME VALUE" for a shell, or "" where the value is the default `usual`.
+/// " NAME VALUE" for a shell, or "" if the value is the default, `usual`.
 template <class T>
 std::string option(const char* name, const T& value, const T& usual)
 {
@@ -142,8 +144,8 @@ std::string stress_options(const FrameOptions& own)
          (own.trust.trust ? " --trust" : "");
 }
 
-/// Options of grseg-fit. Times select rows of a table that was `given`; a table that is made here has them
-/// from grseg-stress.
+/// Options of grseg-fit. --begin and --end are passed only if the table was `given`: a table made from the
+/// run gets them from grseg-stress.
 std::string fit_options(const ExploreSettings& own, bool given)
 {
   const ExploreSettings usual;

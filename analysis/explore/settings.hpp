@@ -19,12 +19,13 @@ struct ExploreSettings {
   FrameOptions frames;
   PartitionSettings partition;
   std::vector<std::string> rules{"stock"};
-  std::string start = "size", component = "yy", base;  // base "": as in the table
+  /// Rule shown first; component of the stress; rule for contacts with the base, "": as in the table.
+  std::string start = "size", component = "yy", base;
   int shown_frames = 100, bootstrap = 1000;
   long seed = 1;
 
   void add_to(po::options_description& options);
-  /// Sets `partition` from the options. UsageError where one has a wrong value. Reads no run.
+  /// Sets `partition` from the options. Throws UsageError if an option has a wrong value. Reads no run.
   void check(const po::variables_map& values);
 };
 
@@ -32,20 +33,20 @@ struct ExploreSettings {
 struct ExploreInputs {
   std::vector<std::string> runs, tables;
 };
-/// The files that the command line names; a file that begins as HDF5 does is a run. UsageError where a file
-/// is missing or there is no run.
+/// Files that the command line names: HDF5 files are runs, all others tables. Throws UsageError if a file
+/// is missing or no run is given.
 ExploreInputs inputs_of(const po::variables_map& values);
 
-/// The command line with these inputs in place of its own.
+/// Options of the command line, with `paths` in place of its input files.
 po::variables_map with_inputs(const po::variables_map& values,
                               const std::vector<std::string>& paths);
 
-/// Commands for a shell that print the B of a page, without the options that depend on the rule:
+/// Shell commands that print the B which a page shows, without the options that depend on the rule:
 ///
 ///   {"sums": "grseg-stress run.h5 --window 2", "file": "sums.tsv", "fit": " --heights 4dS:"}
 ///
-/// If the sums came in a table, `given`, then `sums` is empty and `file` is its name. `number` counts the
-/// runs from 1; it is 0 if there is one run.
+/// If the user gave a table of sums, `given`, then "sums" is empty and "file" is the table's name. `number`
+/// is the number of the run, from 1; it is 0 if there is only one run.
 nlohmann::ordered_json commands_of(const std::string& run, const Table* given,
                                    const ExploreSettings& settings, std::size_t number);
 

@@ -18,10 +18,11 @@ namespace grseg {
 namespace {
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-/// Smallest length in the plane of a unit vector; a shorter one counts as perpendicular to the plane.
+/// Smallest length of a unit vector's projection onto the plane; with a shorter projection the vector
+/// counts as perpendicular to the plane.
 constexpr double along_the_plane = 1e-3;
 
-/// Radius of the disc that the plane cuts out of a grain, m; NaN if it misses the grain.
+/// Radius of the disc that the plane cuts out of a grain, m; NaN if the plane misses the grain.
 template <int D>
 double radius_in_plane(double radius, const Vector<D>& position, double plane)
 {
@@ -50,7 +51,7 @@ class WallsInPlane {
  public:
   explicit WallsInPlane(double plane) : plane_(plane) {}
 
-  /// All walls known so far, after the contacts of one more frame.
+  /// Adds the walls of one more frame, and returns all walls known so far.
   std::vector<ShownWall> with(const Frame<D>& frame)
   {
     walls_.add(frame);
@@ -59,7 +60,7 @@ class WallsInPlane {
     for (const auto& [number, wall] : walls_.all()) lines[numbers_.at(number)] = line_of(wall);
     return lines;
   }
-  /// New j for a wall's j < 0 of the file: -1 minus the number of the wall.
+  /// Number j < 0 of a wall for the page, -1 minus the wall's number here; `j` is the number in the file.
   std::int32_t renumbered(std::int32_t j) const
   {
     return -1 - static_cast<std::int32_t>(numbers_.at(-1 - j));
@@ -82,7 +83,7 @@ class WallsInPlane {
   std::map<std::int32_t, std::size_t> numbers_;
 };
 
-/// Numbers of the contacts, sorted by (i, j).
+/// Indices of the contacts, sorted by (i, j).
 template <int D>
 std::vector<std::size_t> in_order(const ContactList<D>& contacts)
 {
@@ -115,8 +116,8 @@ void show_contacts(const Frame<D>& frame, const WallsInPlane<D>& walls, ShownFra
   }
 }
 
-/// Largest difference, over mixed contacts, between the shares under contact-point and under size, which an
-/// overlap or a gap causes.
+/// Largest difference, over mixed contacts, between the share under the rule contact-point and the share
+/// under size. An overlap or a gap of the two grains causes this difference.
 template <int D>
 double contact_point_from_size(const Grains& grains, const ContactList<D>& contacts)
 {
@@ -132,7 +133,7 @@ double contact_point_from_size(const Grains& grains, const ContactList<D>& conta
   return largest;
 }
 
-/// The rows of the grains that at least one frame shows.
+/// Rows of the grains that at least one frame shows.
 std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std::size_t grains)
 {
   std::vector<std::uint32_t> rows;
@@ -142,7 +143,7 @@ std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std
   return rows;
 }
 
-/// Leaves out all grains but `rows`, which rise; `number` has the new number of each grain.
+/// Removes all grains but `rows`, which are in ascending order; `number` is the new number of each grain.
 void renumber(ShownFrame& frame, const std::vector<std::uint32_t>& rows,
               const std::vector<std::int32_t>& number)
 {

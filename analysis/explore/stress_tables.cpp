@@ -19,10 +19,10 @@
 namespace grseg {
 namespace {
 
-/// Sums for several exponents of power:Q, or without one, in one pass over the frames.
+/// Sums with and without an exponent of power:Q, for several exponents, in one pass over the frames.
 template <int D>
 struct StressOfPowers {
-  std::vector<PartialContactStress<D>> of;  // by exponent
+  std::vector<PartialContactStress<D>> of;  // the first without exponent, then by exponent
 
   void add(const Grains& grains, const Frame<D>& frame)
   {
@@ -41,7 +41,7 @@ std::vector<T> joined(std::vector<T> first, const std::vector<T>& second)
   return first;
 }
 
-/// Table with its header and no rows; `power`: exponent of power:Q, or nothing.
+/// Table with its header and no rows. `power` is the exponent Q of power:Q, if any.
 Table table_of(const FrameLoop& loop, std::optional<double> power, const std::string& command,
                const std::vector<std::string>& columns)
 {
@@ -86,15 +86,15 @@ StressTables make_tables(FrameLoop& loop, const std::string& command)
   return all;
 }
 
-/// Number of the run from which a table was made: the run with its digest, else one with its bed, which is
-/// another file of the same flow.
+/// Number of the run from which a table was made: the run with the digest in the table's header, else a run
+/// with the same bed, i.e. another file of the same flow.
 std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
 {
   const auto program = header_or(table, "program", "");
   const auto name = printable(table.name);
   if (!program.starts_with("grseg-stress ") && !program.starts_with("grseg-merge "))
     throw FormatError(fmt::format(
-        "{}: is {}; only tables of grseg-stress can be given beside runs", name,
+        "{}: is {}; beside runs, give tables of grseg-stress only", name,
         program.empty() ? "not a table made by grseg" : "a table of " + printable(program)));
   const auto inputs = header_values(table, "input");
   if (inputs.size() != 1)
@@ -109,8 +109,8 @@ std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
                          [&](const RunIdentity& run) { return run.bed == bed; });
   if (found == runs.end())
     throw FormatError(fmt::format(
-        "{}: is of the run with the digest {}, and no run given has this digest or the same bed; name that "
-        "run, make the table again, or leave it out: sums are then made from the run",
+        "{}: is of the run with the digest {}, and no run given has this digest or the same bed; add that "
+        "run, make the table again, or leave the table out: its sums are then made from the run",
         name, printable(inputs.front())));
   return static_cast<std::size_t>(found - runs.begin());
 }
@@ -143,8 +143,8 @@ void require_same_species(const Table& table, const SpeciesList& species)
   if (of_table == of_run) return;
   const auto words = [](const std::string& text) { return text.empty() ? "small, large" : text; };
   throw UsageError(fmt::format(
-      "{}: has the species {}, and the run beside it {}; give both the same --group, --classes or "
-      "--edges, or leave the table out",
+      "{}: has the species {}, but its run has {}; give both the same --group, --classes or --edges, or "
+      "leave the table out",
       printable(table.name), printable(words(of_table)), words(of_run)));
 }
 

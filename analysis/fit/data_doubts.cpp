@@ -14,15 +14,15 @@
 namespace grseg {
 namespace {
 
-/// Where tables of one run are of several flows.
+/// Warning that two tables of one run belong to different flows; "" if there are none.
 std::string doubt_of_flows(const std::vector<FitTable>& tables)
 {
   for (const auto& one : tables)
     for (const auto& other : tables)
       if (one.run == other.run && one.flow < other.flow)
         return fmt::format(
-            "{} and {} are of different flows, but begin from one bed: what is over several "
-            "flows takes their errors for independent",
+            "{} and {} are of different flows, but begin from one bed: intervals over several "
+            "flows assume that their errors are independent",
             one.table->name, other.table->name);
   return "";
 }
@@ -36,8 +36,8 @@ std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
   std::erase(doubts, "");
   if (data.still > 0)
     doubts.push_back(fmt::format(
-        "{} of {} windows hold the same as the one before them, since nothing moves, and are no "
-        "observations of their own",
+        "{} of {} windows equal the window before them, because no grain moves; they are not "
+        "counted as observations",
         data.still, number_of_windows(data.runs) + data.still));
   return doubts;
 }
@@ -45,11 +45,11 @@ std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
 namespace {
 
 constexpr double rarely =
-    0.025;  // of each of two series, so that one of them shows as often as 5 %
+    0.025;  // chance below which a series is not steady; 5 % for either of two series
 constexpr Eigen::Index fewest_windows = 10;
 constexpr double fewest_independent = 2;
 
-/// Mean of a run's first tenth less the mean of its last half, with the error of the difference.
+/// Mean of a run's first tenth minus the mean of its last half, with the error of the difference.
 std::optional<Measured> compare(const Eigen::VectorXd& run)
 {
   if (run.size() < fewest_windows) return {};
@@ -59,13 +59,14 @@ std::optional<Measured> compare(const Eigen::VectorXd& run)
   const double independent = static_cast<double>(late) / time;
   if (independent < fewest_independent) return {};
   const double squares = (last.array() - last.mean()).square().sum();
-  // Correlation makes the sum of squares about the mean smaller, by (n_eff - 1)/n_eff.
+  // Correlation reduces the sum of squares about the mean by (n_eff - 1)/n_eff.
   const double variance = squares / static_cast<double>(late) * independent / (independent - 1);
   const double error = std::sqrt(
       variance * (1 / std::max(1.0, static_cast<double>(early) / time) + 1 / independent));
   return Measured{run.head(early).mean() - last.mean(), {error, independent - 1}};
 }
 
+/// The test of start_of_flow, without the first fraction `left_out` of each run's windows.
 std::optional<StartOfFlow> compare(const Eigen::VectorXd& series, const RunLengths& runs,
                                    double left_out)
 {
@@ -88,7 +89,7 @@ std::optional<StartOfFlow> compare(const Eigen::VectorXd& series, const RunLengt
                      2 * gsl_cdf_tdist_Q(t, error.degrees)};
 }
 
-/// s, at which the first of so many windows begins that are left out of the run that begins first.
+/// Time, s, that lies the fraction `left_out` after the begin of the earliest window.
 double time_after(const FitData& data, double left_out)
 {
   double begin = data.samples.front().key.begin, end = begin;
@@ -99,9 +100,9 @@ double time_after(const FitData& data, double left_out)
   return begin + left_out * (end - begin);
 }
 
-/// A number by window that tells whether the flow is steady. For contacts it is
-/// |sigma_xy|/sigma_yy: the tangent of the slope in a steady chute, less in one that gathers speed.
-/// For the kinetic stress it is sigma_yy, which grows with the speed.
+/// A number per window that is constant in a steady flow. For contact stress it is
+/// |sigma_xy|/sigma_yy: the tangent of the slope in a steady chute, and less if the flow
+/// accelerates. For kinetic stress it is sigma_yy, which grows with the speed.
 Eigen::VectorXd motion_by_window(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {
@@ -145,16 +146,16 @@ std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
   };
   add(kinetic ? "the kinetic stress (yy)" : "|sigma_xy|/sigma_yy",
       motion_by_window(data, rule, settings));
-  // Noise: the part of B that the composition of a window does not explain.
+  // The series is the noise of B: the part that the composition of the layers does not explain.
   const auto windows = window_sums(fit_points(data, rule, settings), data.runs);
   add("B by " + rule.name(), windows.excess_noise() / windows.weight().mean());
   if (differs.empty()) return {};
   const auto remedy = leave_out < 1 ? fmt::format("--begin {:.4g} leaves the start out",
                                                   time_after(data, leave_out))
-                                    : "no later begin leaves a steady rest";
+                                    : "the flow is not steady after any later --begin either";
   return fmt::format(
-      "{} in the first tenth of the time than in the last half, more than a steady flow shows in one of "
-      "twenty cases (Geweke's test); {}",
+      "{} in the first tenth of the time than in the last half; in a steady flow such a difference "
+      "has a probability below 5 % (Geweke's test); {}",
       differs, remedy);
 }
 

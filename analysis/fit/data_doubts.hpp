@@ -10,28 +10,31 @@
 
 namespace grseg {
 
-/// Reasons why windows and runs may not be independent, a sentence each, mostly none: runs that
-/// nothing tells apart, flows that share a run, windows between which nothing moves.
+/// Reasons why windows and runs may not be independent, one sentence each; usually an empty list.
+/// Reasons are: two runs that may be the same run, flows that share a run, and windows between
+/// which no grain moves.
 std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
                                           const std::vector<FitTable>& read, const FitData& data);
 
-/// Difference between the start of runs and their end: Geweke's comparison (1992) of the mean over
-/// the first tenth of the windows with the mean over the last half, by Student's t. The last half
-/// gives variance, autocorrelation time and degrees of freedom; several runs are averaged.
+/// Difference between the start and the end of runs. Geweke's test (1992) compares the mean over
+/// the first tenth of the windows with the mean over the last half, by Student's t. Variance,
+/// autocorrelation time and degrees of freedom come from the last half; several runs are averaged.
 struct StartOfFlow {
-  double excess = 0;  // mean of the first tenth less mean of the last half
-  double chance = 1;  // probability of such a difference between runs that are steady
-  double leave_out =
-      0;  // least part of the windows, in twentieths, without which it is 2.5 % or more; 1: none
+  double excess = 0;  // mean of the first tenth minus mean of the last half
+  double chance = 1;  // probability of a difference at least this large if the runs are steady
+  // Least fraction of first windows, in steps of 1/20, without which `chance` is 2.5 % or more; 1
+  // if there is none.
+  double leave_out = 0;
 };
 
-/// `series` has a number per window, run after run. None where the last halves are worth fewer than
-/// two independent windows, or runs have fewer than ten windows.
+/// Geweke's test of `series`, which has one number per window, run after run. Returns nothing if
+/// the last half of a run is worth fewer than two independent windows, or a run has fewer than ten.
 std::optional<StartOfFlow> start_of_flow(const Eigen::VectorXd& series, const RunLengths& runs);
 
-/// The sentence that says so of B by a rule or of how the grains move, and from when both no longer
-/// differ; mostly empty. What the composition of the layers explains of B is taken out first
-/// (least_squares.hpp): as the species part, B of the mixture changes, and that is no start.
+/// Warning that B or the stress ratio differs between the start and the end of the runs, with the
+/// time after which neither does; usually empty. The part of B that the composition of the layers
+/// explains is subtracted first (least_squares.hpp), because B changes as the species separate, and
+/// that change is not a start.
 std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
                            const FitSettings& settings);
 

@@ -17,7 +17,7 @@
 namespace grseg {
 namespace {
 
-/// The mean of `of` over points with the weight of B.
+/// Mean of of(point) over points with positive total stress, with the weights of B.
 template <class Of>
 double weighted_mean(const std::vector<FitPoint>& points, const Of& of)
 {
@@ -30,7 +30,7 @@ double weighted_mean(const std::vector<FitPoint>& points, const Of& of)
   return sum / weights;
 }
 
-/// All estimators, from the four numbers that they follow from.
+/// All estimators, computed from B, ln s, k and a.
 Estimators estimators_from(double b, double ln_s, double k, double a)
 {
   const double s = std::exp(ln_s);
@@ -77,13 +77,13 @@ namespace {
 
 using Sum = WindowSums::Sum;
 
-/// A power law wants points at different x.
+/// True if the points have different x, which the fit of a power law needs.
 bool spread_out(double w, double wX, double wXX)
 {
   return wXX * w - wX * wX > 1e-12 * w * w;
 }
 
-/// Calls at(point, weight x noise) for every point that a mean of `value` with `weight` is over.
+/// Calls at(point, weight x noise of `value`) for every point.
 template <class Value, class Weight, class At>
 void for_noise(const std::vector<FitPoint>& points, const Value& value, const Weight& weight,
                const At& at)
@@ -96,6 +96,7 @@ void for_noise(const std::vector<FitPoint>& points, const Value& value, const We
     at(points[k], weights[index(k)] * noise[index(k)]);
 }
 
+/// WindowSums::noise of these points.
 Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
 {
   std::vector<FitPoint> with_logarithm, with_stress;

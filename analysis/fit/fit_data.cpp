@@ -23,8 +23,8 @@ namespace {
 
 using SumsOfRow = std::function<ContactSums<3>(std::size_t)>;
 
-/// Kinetic sums as contact sums in which nothing is mixed. Where all grains have one density the
-/// table has no areas or volumes, and masses have the same ratios.
+/// Reader of kinetic sums as contact sums without mixed contacts. If all grains have one density,
+/// the table has no areas or volumes; masses, which have the same ratios, replace them.
 SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
 {
   const auto column = [&table](const std::string& name) {
@@ -32,7 +32,7 @@ SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
   };
   const auto words = column_words(species);
   const int dimension = dimension_of(table);
-  std::vector<std::size_t> content, diagonal;  // by species, and by axis
+  std::vector<std::size_t> content, diagonal;  // columns by species; by species and axis
   for (const auto& word : words) {
     const auto name = fmt::format("{}_{}", dimension == 3 ? "volume" : "area", word);
     content.push_back(table.has_column(name) ? table.column(name)
@@ -79,7 +79,7 @@ std::vector<LayerSolid> layers_of(const std::vector<FitRow>& rows)
   });
 }
 
-/// Where a row counts: as used, or under the reason why it is left out.
+/// The member of FilterCount that counts this row: `used`, or the reason why it is left out.
 std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
                                    const FitFilters& filters, const RowRange& range)
 {
@@ -112,7 +112,7 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
           .key = row.key};
 }
 
-/// Rows of a table that are points, with the pair of species that each is of.
+/// Rows of a table that are points, each with its pair of species.
 using UsedRows = std::vector<std::pair<const FitRow*, SpeciesPair>>;
 
 UsedRows used_rows(const FitTable& run, const FitFilters& filters,
@@ -133,13 +133,13 @@ UsedRows used_rows(const FitTable& run, const FitFilters& filters,
   return used;
 }
 
-/// The number, in all runs, of the observation that a window of a table is.
+/// Index, in the series of all runs, of the observation for each window of a table.
 using Observations = std::map<std::pair<const Table*, Span>, std::size_t>;
 
 Observations observations_of(const std::vector<FitTable>& tables, const std::vector<UsedRows>& used,
                              FitData& data)
 {
-  using Run = std::pair<std::size_t, std::size_t>;  // and flow
+  using Run = std::pair<std::size_t, std::size_t>;  // numbers of run and flow
   std::vector<Run> order;
   std::map<Run, std::vector<TableWindow>> windows_of_run;
   for (std::size_t k = 0; k < tables.size(); ++k) {
@@ -186,13 +186,13 @@ void require_alike(const FitTable& a, const FitTable& b)
 {
   const auto names_a = names_of(a.species), names_b = names_of(b.species);
   if (names_a != names_b && names_a.size() + names_b.size() > 4)
-    throw FormatError(fmt::format("{} and {} have different species ({} and {}); fit them apart",
+    throw FormatError(fmt::format("{} and {} have different species ({}; {}); fit them separately",
                                   a.table->name, b.table->name, fmt::join(names_a, ", "),
                                   fmt::join(names_b, ", ")));
   if (dimension_of(*a.table) != dimension_of(*b.table))
     throw FormatError(
-        fmt::format("{} is of a run in {} dimensions and {} of one in {}; fit them "
-                    "apart",
+        fmt::format("{} is of a run in {} dimensions and {} of a run in {}; fit them "
+                    "separately",
                     a.table->name, dimension_of(*a.table), b.table->name, dimension_of(*b.table)));
 }
 
@@ -272,10 +272,10 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                          count.outside_ratio + count.below_solid == 0;
     throw RunError(fmt::format(
         "no usable points: {}{}", count.sentence(),
-        one_species ? "; B needs layers that hold both species"
+        one_species ? "; B needs layers that contain both species"
         : shallow
-            ? "; the bed is too shallow to leave out 4 d_S at its base and under its surface: take "
-              "--heights all, or a smaller --layer of the sums"
+            ? "; the bed is too shallow to leave out 4 d_S at its base and under its surface: use "
+              "--heights all, or make the table with a smaller --layer"
             : ""));
   }
   return data;
@@ -299,8 +299,8 @@ std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
     const double total = stress.of_species.size() == 2 ? of(stress.total) : small + large;
     if (!std::isfinite(small + large + total))
       throw FormatError(fmt::format(
-          "{}: the stress ({}) by {} is not finite: a sum that it needs was not kept "
-          "(see the line '# not kept: ...') or is too large; make the table again",
+          "{}: the stress ({}) by {} is not finite: the table left out a sum that it needs "
+          "(see the line '# not kept: ...'), or a sum is too large; make the table again",
           data.tables[sample.table], word_of(settings.component, components), rule.name()));
     points.push_back({sample.window, sample.phi_large, sample.weight, sample.frames,
                       sample.size_ratio, small, large, total});

@@ -17,106 +17,108 @@
 
 namespace grseg {
 
-/// The population that an interval is over: where runs are taken to come from, and which number is
-/// estimated. Runs that differ in their seed alone are of one flow.
+/// The statistical population that a 95 % interval refers to, and with it the number that is
+/// estimated. Runs that differ only in their seed belong to one flow.
 enum class Population {
-  automatic,     ///< windows of one run, runs of one flow, these flows of several
+  automatic,     ///< `windows` for one run, `runs` for several of one flow, `flows` for several
   windows,       ///< these very runs, had they lasted longer
-  runs,          ///< one flow, over all its runs
-  flows,         ///< these flows, weighted as they are, over all their runs
-  equal_flows,   ///< these flows, each counting the same, over all their runs
-  random_flows,  ///< the mean over all flows of which these are a random sample
-  compositions,  ///< runs about one function of composition that is common to all flows
+  runs,          ///< all runs that one flow could have
+  flows,         ///< all runs that these flows could have, each flow with its weight in the data
+  equal_flows,   ///< all runs that these flows could have, all flows with the same weight
+  random_flows,  ///< all flows, these being a random sample; estimates the mean over all
+  compositions,  ///< all runs, if B is one function of composition that is common to all flows
 };
 inline constexpr Choice<Population> populations[] = {
     {"windows", Population::windows, "these runs, had they lasted longer"},
-    {"runs", Population::runs, "this flow, over all runs that it could have"},
-    {"flows", Population::flows, "these flows, each with its weight"},
-    {"equal-flows", Population::equal_flows, "these flows, each counting the same"},
-    {"random-flows", Population::random_flows, "all flows, these being a random sample"},
+    {"runs", Population::runs, "all runs that this flow could have"},
+    {"flows", Population::flows, "all runs of these flows, each flow with its weight in the data"},
+    {"equal-flows", Population::equal_flows, "all runs of these flows, all flows weighted equally"},
+    {"random-flows", Population::random_flows, "all flows, of which these are a random sample"},
     {"compositions", Population::compositions,
-     "these compositions, if B depends on composition alone"}};
+     "all runs with these compositions, if B depends only on composition"}};
 
-/// The automatic one of so many runs and flows; the others stand for themselves.
+/// Replaces Population::automatic by the population for these numbers of runs and flows; returns
+/// any other population unchanged, except that `compositions` of a single run become `windows`.
 Population resolved(Population over, std::size_t runs, std::size_t flows);
 
-/// The population and what is estimated, as a sentence without its full stop; of so many flows.
+/// Sentence, without full stop, that names the estimated number and the population; `flows` is the
+/// number of flows.
 std::string estimand_words(Population over, std::size_t flows);
 
 enum class Quantity { contact, kinetic };
 inline constexpr Choice<Quantity> quantities[] = {
     {"contact", Quantity::contact, "tables of grseg-stress"},
     {"kinetic", Quantity::kinetic, "tables of grseg-kinetic"}};
-/// pressure: P = (lambda_1 + lambda_2)/2 (Staron & Phillips 2015, below eq. 1), half the trace; in
-/// three dimensions a third of it.
+/// Component of the stress tensor that is fitted. pressure: P = (lambda_1 + lambda_2)/2 (Staron &
+/// Phillips 2015, below eq. 1), half the trace; in three dimensions a third of the trace.
 enum class Component { yy, pressure };
 inline constexpr Choice<Component> components[] = {
     {"yy", Component::yy, "normal to the base"},
     {"pressure", Component::pressure, "half the trace"}};
 
-/// Which rows of the tables are points of the fit.
+/// Conditions that a row of a table meets to be a point of the fit.
 struct FitFilters : RowFilter {
-  double ratio_low = 0.01, ratio_high = 100;  // of phi_S/phi_L
+  double ratio_low = 0.01, ratio_high = 100;  // least and largest phi_S/phi_L
 };
 
-/// Two of the species of the tables, the smaller first.
+/// Numbers of two species of the tables.
 struct SpeciesPair {
   std::size_t smaller = 0, larger = 1;
 
   bool operator==(const SpeciesPair&) const = default;
 };
-/// All of them: (0, 1), (0, 2), (1, 2), (0, 3) ...
+/// All pairs of this number of species: (0, 1), (0, 2), (1, 2), (0, 3) ...
 std::vector<SpeciesPair> all_pairs(std::size_t species);
 
 /// One layer in one window, and two of its species.
 struct LayerSample {
-  std::size_t window = 0;  // in the series of all windows, run after run
-  double phi_large = 0;    // the larger species' part of the two: phi_L + phi_S = 1
+  std::size_t window = 0;  // index of the window in the series of all windows, run after run
+  double phi_large = 0;    // area or volume of the larger species over the sum of the two species
   double weight = 0;       // frames x grains of the rarer species, up to a constant factor
-  double frames = 1;       // of its window
-  double size_ratio = 0;   // of the nominal diameters in its run
-  std::size_t table = 0;   // among FitData::tables
-  std::size_t row = 0;     // among FitData::rows
+  double frames = 1;       // number of frames in the window
+  double size_ratio = 0;   // nominal diameters, larger over smaller species
+  std::size_t table = 0;   // index in FitData::tables
+  std::size_t row = 0;     // index in FitData::rows
   SpeciesPair pair = {};
   LayerKey key = {};
 
   double weight_in_b() const { return frames * phi_large * (1 - phi_large); }
 };
 
-/// How many rows were used, and why the others were not.
+/// Number of rows that were read, used, and left out for each reason.
 struct FilterCount {
   std::size_t rows = 0, outside_times = 0, without_grains = 0, without_small = 0, without_large = 0,
               outside_ratio = 0, below_solid = 0, outside_heights = 0, used = 0;
 
-  /// "320 rows, 20 without grains, ...": names the options that removed them.
+  /// "320 rows, 20 without grains, 5 outside --heights, ...".
   std::string sentence() const;
 };
 
 struct FitData {
   Quantity quantity = Quantity::contact;
   int dimension = 2;
-  RunLengths runs = {};                 // observations of each run: windows with samples, in line
-  std::vector<std::size_t> flows = {};  // of each run (flows.hpp); empty: all are of one
-  std::size_t still = 0;                // windows that add no observation, since nothing moved
-  std::vector<std::string> tables;      // their names
-  SpeciesList species;                  // of the first table; names agree in all
-  double window = 0;                    // s, the first one's length
-  // Kinetic: species alone, nothing mixed, so every rule gives the same.
+  RunLengths runs = {};                 // number of windows with samples in each run
+  std::vector<std::size_t> flows = {};  // flow of each run (flows.hpp); empty: one flow
+  std::size_t still = 0;                // number of windows left out because no grain moved
+  std::vector<std::string> tables;      // names of the tables
+  SpeciesList species;                  // species of the first table; all tables use its names
+  double window = 0;                    // length of the first window, s
+  // Sums of the used rows. Kinetic sums have no mixed part, so they are the same under every rule.
   std::vector<ContactSums<3>> rows = {};
   std::vector<LayerSample> samples = {};
   FilterCount count;
 
   std::size_t flow_of(std::size_t run) const { return flows.empty() ? 0 : flows[run]; }
-  std::size_t number_of_flows() const;  // that have runs
+  std::size_t number_of_flows() const;  // number of flows that have runs, at least 1
   std::vector<std::size_t> flows_of_windows() const;
 };
 
-/// A row of a table and the window and layer it belongs to.
+/// Sums of one row of a table, with the window and layer of the row.
 struct FitRow {
   LayerKey key;
   ContactSums<3> sums;
 
-  double solid() const;  // solid fraction
+  double solid() const;  // solid fraction of the layer
 };
 
 /// The rows of one table and its species.
@@ -125,31 +127,31 @@ struct FitTable {
   SpeciesList species;
   std::vector<FitRow> rows;
   std::size_t flow = 0;
-  std::size_t run = 0;  // the same of tables of one run
+  std::size_t run = 0;  // number of the run; tables of one run have the same number
 };
 
-/// Reads tables of grseg-stress (contact) or grseg-kinetic.
-/// FormatError where a table lacks what is asked of it or has other species than the first;
-/// UsageError where two tables hold the same windows of the same run.
+/// Reads tables of grseg-stress (contact) or grseg-kinetic. Throws FormatError if a table lacks a
+/// column that `rules` need or has other species than the first table. Throws UsageError if two
+/// tables include the same windows of the same run.
 std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
                                       const std::vector<PartitionRule>& rules);
 
-/// The layers and windows of all tables that pass the filters, with the samples of `pairs`; the
-/// windows of tables of one run and flow stand in line (runs_of_tables.hpp). phi is made of areas
-/// or volumes, or of masses (kinetic, where all species have one density). RunError, saying what
-/// removed them, where nothing is left.
+/// Selects the layers and windows of all tables that pass the filters, as samples of `pairs`.
+/// Windows of one run and flow are put in order of time, even if they come from several tables
+/// (runs_of_tables.hpp). phi is computed from areas or volumes; from masses if a kinetic table has
+/// neither, since all species have one density then. Throws RunError, with the count of rows per
+/// filter, if no row passes.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);
 
-/// A point of the fit under one partition rule; stresses in N/m, in three dimensions Pa, the
-/// chosen component.
+/// A point of the fit under one partition rule: one layer in one window.
 struct FitPoint {
   std::size_t window = 0;
   double phi_large = 0;
   double weight = 0;
   double frames = 1;
-  double size_ratio = 0;  // nominal d_L/d_S
-  double small = 0, large = 0, total = 0;
+  double size_ratio = 0;                   // nominal d_L/d_S
+  double small = 0, large = 0, total = 0;  // chosen stress component, N/m (3D: Pa)
 
   double ratio() const { return (1 - phi_large) / phi_large; }  // x
   bool has_logarithm() const { return small > 0 && large > 0; }
@@ -161,10 +163,11 @@ struct FitPoint {
 struct FitSettings {
   Component component = Component::yy;
   BasePart base = BasePart::contact_point;
-  Population over = Population::automatic;  // what intervals are over
+  Population over = Population::automatic;  // population of the intervals
 };
 
-/// FormatError, naming the table, where a stress is not finite because a sum was not kept.
+/// Points of the fit, in the order of data.samples. Throws FormatError, which names the table, if a
+/// stress is not finite because the table left out a sum.
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings);
 

@@ -19,8 +19,8 @@
 namespace grseg {
 namespace {
 
-/// Points of which minus the weighted mean of ln(y/x) is a: the logarithms over ln r, and
-/// weights that give the least-squares slope.
+/// Points scaled so that minus the weighted mean of ln(y/x) is the exponent a: logarithms are
+/// divided by ln r, and weights multiplied by (ln r)^2, which gives the least-squares slope.
 std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
 {
   std::vector<FitPoint> scaled;
@@ -37,7 +37,7 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
   return scaled;
 }
 
-/// The exponent of all points together, flows not told apart.
+/// The exponent a of all points together, without distinction of flows.
 Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
                          const FitSettings& settings, const Resampling& resampling)
 {
@@ -75,7 +75,7 @@ Estimate size_exponent(const FitData& data, const PartitionRule& rule, const Fit
 
 namespace {
 
-/// The unweighted mean over flows of what of(fit) gives.
+/// The unweighted mean of of(fit) over flows.
 template <class Of>
 MeanOfEquals mean_of(const std::vector<RuleFit>& flows, const Of& of)
 {
@@ -91,7 +91,7 @@ MeanOfEquals mean_of(const std::vector<RuleFit>& flows, double Estimators::*plac
   });
 }
 
-/// Makes the mean over flows the result. Whatever stands beside it is such a mean, too.
+/// Replaces all numbers of `all` by their unweighted means over flows.
 void take_mean(RuleFit& all, const std::vector<RuleFit>& flows)
 {
   const bool random = all.over == Population::random_flows;
@@ -114,7 +114,7 @@ void take_mean(RuleFit& all, const std::vector<RuleFit>& flows)
     all.*place = mean_of(flows, [place](const RuleFit& fit) { return Measured{fit.*place}; }).value;
 }
 
-/// Doubt about the interval of a mean over flows; "" where there is none.
+/// Warning about the interval of a mean over flows; "" if there is none.
 std::string doubt_of_mean(const RuleFit& all, const std::vector<RuleFit>& flows)
 {
   if (all.over == Population::equal_flows)
@@ -123,12 +123,13 @@ std::string doubt_of_mean(const RuleFit& all, const std::vector<RuleFit>& flows)
   return flows.size() > 3
              ? ""
              : fmt::format(
-                   "{} flows tell little of how flows differ; four or more give a narrower "
+                   "{} flows show little of how flows differ; four or more give a narrower "
                    "interval",
                    flows.size());
 }
 
-/// Adds what rests on the flows one by one, and makes it the result where it was asked for.
+/// Adds B over equal and over random flows. If all.over is one of the two, replaces all other
+/// numbers of `all` by means over flows, too.
 void combine(RuleFit& all, const std::vector<RuleFit>& flows)
 {
   const auto b = mean_of(flows, &Estimators::B);
@@ -178,7 +179,7 @@ SpeciesPair parse_pair(const std::string& text, const SpeciesList& species)
   const auto a = find_species(text.substr(0, comma), species, text);
   const auto b =
       find_species(comma == std::string::npos ? "" : text.substr(comma + 1), species, text);
-  if (a == b) throw UsageError(fmt::format("--pair {}: both are the same species", text));
+  if (a == b) throw UsageError(fmt::format("--pair {}: write two different species", text));
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -220,7 +221,7 @@ std::vector<double> ScanRange::shares() const
 {
   const auto count = static_cast<std::size_t>(std::floor((last - first) / step + 1e-6)) + 1;
   std::vector<double> all(count);
-  // Multiplying, not adding up: steps stay exact; 0.4 + 40 x 0.005 is to print as 0.6.
+  // A product, rounded, instead of a running sum: 0.4 + 40 x 0.005 has to print as 0.6.
   for (std::size_t k = 0; k < count; ++k)
     all[k] = std::round((first + static_cast<double>(k) * step) * 1e12) / 1e12;
   return all;
@@ -240,7 +241,7 @@ ScanRange parse_scan(const std::string& text)
                     "e.g. 0.4:0.9:0.005",
                     text));
   if ((range.last - range.first) / range.step > 1e5)
-    throw UsageError(fmt::format("--scan {}: more than 100000 shares; take a larger step", text));
+    throw UsageError(fmt::format("--scan {}: more than 100000 shares; use a larger step", text));
   return range;
 }
 
@@ -250,7 +251,7 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
 {
   const auto shares = range.shares();
   double done = 0;
-  const auto tell_half = [&] {  // each share is met twice
+  const auto tell_half = [&] {  // two loops visit each share
     done += 0.5;
     if (tell) tell(done);
   };

@@ -12,47 +12,47 @@
 
 namespace grseg {
 
-/// How samples are drawn (Bootstrap).
+/// Settings of Bootstrap (bootstrap.hpp).
 struct Resampling {
-  std::size_t samples = 0;
+  std::size_t samples = 0;  // number of samples; 0: no intervals
   unsigned long seed = 1;
 };
 
 /// The exponent a of a partition of stress by a power of grain size,
 ///   sigma^nu/sigma = phi^nu s_nu^a / sum over mu of phi^mu s_mu^a,   s: nominal diameter
-/// (Marks, Rognon & Einav 2012; Tunuguntla, Bokhove & Thornton 2014): 0 where stress goes by
-/// volume, 1, 2 or 3 where it goes with diameter, surface or volume of the single grain. For any
-/// two species ln(sigma^nu/sigma^mu) - ln(phi^nu/phi^mu) = a ln(s_nu/s_mu), and a is the weighted
-/// least-squares slope of this line through the origin over the samples of all pairs in `data`. For
-/// two species it is minus_ln_s/ln r (estimators.hpp), with the interval of minus_ln_s over the
-/// same data; over equal or random flows it is the mean of the flows' exponents. NaN without
-/// points.
+/// (Marks, Rognon & Einav 2012; Tunuguntla, Bokhove & Thornton 2014). a = 0 if each species bears
+/// stress in proportion to its volume, and 1, 2 or 3 if in proportion to its volume times the
+/// diameter, surface or volume of one grain. For any two species ln(sigma^nu/sigma^mu) -
+/// ln(phi^nu/phi^mu) = a ln(s_nu/s_mu); a is the weighted least-squares slope of this line through
+/// the origin, over the samples of all pairs in `data`. For two species a = minus_ln_s/ln r
+/// (estimators.hpp), r = d_L/d_S. Over equal or random flows a is the mean of the flows' exponents.
+/// NaN if there are no points.
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                        const Resampling& resampling);
 
-/// One rule for all flows together and for each of them; the latter is empty where there is one.
+/// Fit of one rule to all flows together and to each flow; `of_each` is empty if there is only one.
 struct FlowFits {
   RuleFit all;
   std::vector<RuleFit> of_each;
 };
 
-/// Fits data of one pair of species. A flow's own interval is over its runs, or over the windows of
-/// a single run, whatever the interval of all flows is over.
+/// Fits one pair of species. The interval of each single flow is over the flow's runs, or over its
+/// windows if it has one run, independent of settings.over.
 ///
-/// Over equal flows each number of all is the unweighted mean of the flows' numbers, and the flows'
-/// errors are added (confidence.hpp). Over random flows it is the same mean with the scatter of the
-/// flows' values, n - 1 degrees of freedom for n flows. B over each stands in RuleFit::at() always.
+/// For Population::equal_flows each number of FlowFits::all is the unweighted mean over the flows,
+/// and the flows' errors are added (confidence.hpp). For Population::random_flows the mean is the
+/// same, and its error is the scatter of the n flows' values, with n - 1 degrees of freedom.
+/// RuleFit::at() returns B for both, whatever settings.over is.
 FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                    const Resampling& resampling);
 
-/// The two species that `text` names, "AM,SE" or by number from 1 "1,3", the smaller one first.
-/// UsageError where it does not name two of `species`.
+/// Reads a pair of species from `text`, by name ("AM,SE") or by number from 1 ("1,3"). Throws
+/// UsageError if `text` does not name two of `species`.
 SpeciesPair parse_pair(const std::string& text, const SpeciesList& species);
 
-/// Every rule for every pair, rule by rule, each pair over its own layers and windows; and, if
-/// asked for, the exponent of sizes of each rule over all of these pairs. Where there are several
-/// flows and `settings` leaves the population open, each flow has its own fit before the fit of
-/// all.
+/// Fits every pair under every rule, rule by rule; each pair uses its own layers and windows. With
+/// `with_exponent` all fits of a rule include its size_exponent over all pairs. If settings.over is
+/// automatic and there are several flows, one fit per flow precedes the fit of all flows.
 std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity quantity,
                                const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
                                const std::vector<PartitionRule>& rules, const FitSettings& settings,
@@ -69,14 +69,15 @@ ScanRange parse_scan(const std::string& text);
 
 /// B as a function of the share p.
 struct PartitionScan {
-  std::vector<RuleFit> fits;  // uniform:p, one per share
-  Dependence dependence;      // common to all fits, see scan_partition
-  LineOverShare line;         // with the dependence at p*
+  std::vector<RuleFit> fits;  // fits under uniform:p, one per share
+  Dependence dependence;      // dependence of windows in all fits, see scan_partition
+  LineOverShare line;         // p* and dB/dp, with the dependence of windows at p*
 };
 
-/// The band of B(p) must not jump where the block length of a single fit would, so all shares have
-/// one: that at p*, or at the share nearest to it, with the longest autocorrelation time of all.
-/// `tell` is told, now and then, how many shares are done.
+/// Fits uniform:p for all shares of `range`. All shares use one block length, so that the band of
+/// B(p) has no jumps: the block length at p*, or at the share in [0, 1] nearest to p*. The
+/// autocorrelation time is the longest of all shares. `tell` is called with the number of shares
+/// done so far.
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
                              const FitSettings& settings, const Bootstrap& bootstrap,
                              const std::function<void(double shares)>& tell = {});

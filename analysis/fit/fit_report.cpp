@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The names of a flow's tables; "-" where one is not known.
+/// Names of a flow's tables; "-" for a table without a known name.
 std::vector<std::string> tables_of(const FitReport& report, const Flow& flow)
 {
   return listed(flow.tables, [&](std::size_t table) -> std::string {
@@ -36,15 +36,15 @@ std::string pair_name(const FitReport& report, const RuleFit& fit)
   return report.species[fit.pair.smaller].name + '+' + report.species[fit.pair.larger].name;
 }
 
-/// The name of the flow that a row is of; "all" of all of them.
+/// Name of the row's flow; "all" if the row is about all of several flows.
 std::string flow_name(const FitReport& report, const RuleFit& fit)
 {
   if (fit.flow) return report.flows[*fit.flow].name;
   return report.flows.size() == 1 ? report.flows.front().name : "all";
 }
 
-/// The rule, with the pair of species where there are more than two, and the flow where there are
-/// several.
+/// The rule, with the pair of species if there are more than two species, and the flow if each flow
+/// has its own rows.
 std::string row_name(const FitReport& report, const RuleFit& fit)
 {
   auto name = rule_name(report, fit);
@@ -53,14 +53,14 @@ std::string row_name(const FitReport& report, const RuleFit& fit)
   return name;
 }
 
-/// "3.1 % of the weight".
+/// Weight of a flow in words: "3.1 % of the weight".
 std::string share_words(const FitReport& report, std::size_t flow)
 {
   if (flow >= report.shares.size()) return "weight unknown";
   return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
 }
 
-/// Populations of the intervals in the report, each with a sentence on it.
+/// Populations of the intervals in the report, each with its estimand_words.
 std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
 {
   std::set<Population> used;
@@ -76,7 +76,7 @@ std::vector<std::pair<Population, std::string>> estimands(const FitReport& repor
                 [&](Population over) { return std::pair(over, estimand_words(over, flows)); });
 }
 
-/// "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv"
+/// Header line of flow m: "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv".
 std::string flow_line(const FitReport& report, std::size_t m)
 {
   const auto& flow = report.flows[m];
@@ -100,7 +100,7 @@ Header header_of(const FitReport& report)
   return lines;
 }
 
-/// Adds the numbers of one fit.
+/// Appends the rows of one fit to `rows`.
 void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule,
                  std::vector<NumberRow>& rows)
 {
@@ -137,7 +137,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   add("autocorrelation_time[windows]", {fit.dependence.time});
   if (!of_first_rule) return;
   rule = "-";
-  // Phi_L of several flows together is not known: tables do not hold the sizes of the beds.
+  // Phi_L of several flows together is unknown: tables do not include the sizes of the beds.
   if (fit.flow || report.flows.size() == 1)
     add("Phi_L", {report.flows[fit.flow.value_or(0)].phi_large()});
   add("weight_share", {fit.flow ? report.shares[*fit.flow] : 1});
@@ -147,7 +147,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   add_measured("dB_dp", fit.line.dB_dp);
 }
 
-/// The words of a row and its numbers, with their columns.
+/// Words of a row, each with the name of its column; next function: its numbers.
 std::vector<std::pair<const char*, std::string>> words_in(const FitReport& report,
                                                           const NumberRow& row)
 {
@@ -163,7 +163,8 @@ std::vector<Cell> numbers_in(const NumberRow& row)
           {"degrees_of_freedom", row.degrees}};
 }
 
-/// Last stand the settings of the row's flow in which flows differ; nan of all flows together.
+/// Table with a row per number. The last columns are settings in which flows differ, with the
+/// values of the row's flow; nan in rows of all flows together.
 std::string rule_table(const FitReport& report)
 {
   std::vector<std::string> columns;
@@ -232,7 +233,7 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
 
 std::vector<std::string> doubts(const FitReport& report)
 {
-  Header of_fits;  // a doubt, and whose it is
+  Header of_fits;  // each doubt with the names of its fits
   const auto add = [&](const std::string& name, const std::string& doubt) {
     const auto same = std::ranges::find(of_fits, doubt, &HeaderLine::first);
     if (same != of_fits.end())
@@ -288,16 +289,16 @@ std::string rounded(const FitReport& report, double value)
   return text == "-0.000" ? "0.000" : text;
 }
 
-/// The codes that share mixed contacts so, cut where they are long; "-" where none is known.
+/// Names of programs that use this rule, shortened if long; "-" if none is known.
 std::string used_by(const FitReport& report, const RuleFit& fit)
 {
-  constexpr std::size_t most = 44;  // a table is to fit 100 columns
+  constexpr std::size_t most = 44;  // characters, so that the table fits into 100 columns
   const std::string codes = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
   if (codes.empty()) return "-";
   return codes.size() <= most ? codes : codes.substr(0, codes.rfind(' ', most - 4)) + " ...";
 }
 
-/// A sentence in lines of a hundred columns at most, those after the first indented.
+/// Breaks a sentence into lines of at most `readable_width` columns; later lines are indented.
 std::string wrapped(const std::string& sentence)
 {
   std::string text;
@@ -312,9 +313,9 @@ std::string wrapped(const std::string& sentence)
   return text + '\n';
 }
 
-using Line = std::vector<std::string>;  // all of the same length
+using Line = std::vector<std::string>;  // cells of a row; all rows have the same number
 
-/// Words in the first and last column, numbers between them.
+/// Aligned table with words in the first and last column, and numbers between them.
 std::string with_words_outside(const std::vector<Line>& lines)
 {
   const auto last = lines.front().size() - 1;
@@ -338,7 +339,8 @@ std::string rules_text(const FitReport& report)
   return with_words_outside(lines);
 }
 
-/// Coefficients of the paper's fits: sigma^S/sigma^L = s phi_S/phi_L, and k (phi_S/phi_L)^a.
+/// Coefficients of the fits of Staron & Phillips (2015): sigma^S/sigma^L = s phi_S/phi_L, and
+/// sigma^S/sigma^L = k (phi_S/phi_L)^a.
 std::string paper_text(const FitReport& report)
 {
   if (!report.with_paper) return "";
@@ -353,7 +355,7 @@ std::string paper_text(const FitReport& report)
   return '\n' + with_words_outside(lines);
 }
 
-/// B of every pair under a rule, the larger species along the lines.
+/// Matrix of B under a rule: one row per larger species, one column per smaller species.
 std::string matrix_text(const FitReport& report, const std::string& rule)
 {
   const auto& species = report.species;
@@ -372,7 +374,8 @@ std::string matrix_text(const FitReport& report, const std::string& rule)
   return text + '\n';
 }
 
-/// The numbers for all flows together under the rules that have B, and what each of them is.
+/// B of all flows together over each population, the meaning of the populations, and the flows with
+/// their weights.
 std::string populations_text(const FitReport& report)
 {
   std::string text;
@@ -397,7 +400,7 @@ std::string populations_text(const FitReport& report)
   return text;
 }
 
-/// Numbers of all pairs together, each rule once: a matrix of B and the exponent of sizes.
+/// Matrix of B by pair and the size exponent, once per rule.
 std::string pairs_text(const FitReport& report)
 {
   const auto& first = report.rules.front().pair;
@@ -419,7 +422,7 @@ std::string pairs_text(const FitReport& report)
   return text;
 }
 
-/// p* and dB/dp of each flow and of all, which no rule changes.
+/// p* and dB/dp of each flow and of all flows; they are the same for every rule.
 std::string line_text(const FitReport& report)
 {
   std::string text;
@@ -427,7 +430,7 @@ std::string line_text(const FitReport& report)
   for (const auto& fit : report.rules)
     if (rule_name(report, fit) == name && std::isfinite(fit.line.p_zero.value))
       text += wrapped(fmt::format(
-          "B = 0 where the large grain gets p* = {} of every mixed contact; dB/dp = {}{}",
+          "B = 0 if the large grain gets p* = {} of every mixed contact; dB/dp = {}{}",
           b_text(report, fit.line.p_zero.estimate()), b_text(report, fit.line.dB_dp.estimate()),
           report.is_by_flow() ? "; " + flow_name(report, fit) : ""));
   return text.empty() ? "" : '\n' + text;

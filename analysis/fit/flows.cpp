@@ -22,8 +22,8 @@
 namespace grseg {
 namespace {
 
-/// A line of a table's header that is about the flow, what it says, and how far numbers of one
-/// flow may lie apart, relative to the larger.
+/// A header line of a table in which flows may differ: its key, unit and meaning, and the largest
+/// difference between two numbers of one flow, relative to the larger number.
 struct FlowLine {
   const char *key, *unit, *what;
   double tolerance = 1e-6;
@@ -42,8 +42,8 @@ constexpr FlowLine flow_lines[] = {{"dimension", "", "dimension"},
                                    {"length", "[m]", "length of the cell"},
                                    {"length_z", "[m]", "length of the cell"}};
 
-/// Keys of a scene that do not tell flows apart, or that other lines of the header or the
-/// composition repeat.
+/// Keys of a scene that are not compared: they do not matter for the flow, or the composition or
+/// another header line repeats them.
 constexpr std::string_view keys_left_out[] = {
     "seed",    "duration",       "frame-interval", "burst",   "keep-deposition", "compression",
     "store",   "small-diameter", "size-ratio",     "density", "friction",        "restitution",
@@ -57,8 +57,8 @@ bool holds(std::span<const std::string_view> list, std::string_view word)
   return std::ranges::find(list, word) != list.end();
 }
 
-/// Keys and values of a table's line "# scene: KEY = VALUE; ..." that tell its flow from others;
-/// empty where the table has no such line.
+/// Keys and values of a table's line "# scene: KEY = VALUE; ..." without keys_left_out; empty if
+/// the table has no such line.
 std::map<std::string, std::string> scene_of(const Table& table)
 {
   std::map<std::string, std::string> scene;
@@ -76,7 +76,7 @@ bool near(double a, double b, double tolerance)
   return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
 }
 
-/// True where names agree, and diameters up to the relative `tolerance`.
+/// True if names agree, and diameters to the relative `tolerance`.
 bool same_species(const SpeciesList& a, const SpeciesList& b, double tolerance)
 {
   return !a.empty() && std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -95,7 +95,7 @@ bool agree(const Table& one, const Table& other, const FlowLine& line)
   return same_species(parse_species(a), parse_species(b), line.tolerance);
 }
 
-/// The keys of which the scenes of both tables have different values.
+/// Keys that both tables' scenes state, with different values.
 std::vector<std::string> scene_differences(const Table& one, const Table& other)
 {
   std::vector<std::string> keys;
@@ -109,7 +109,7 @@ std::vector<std::string> scene_differences(const Table& one, const Table& other)
   return keys;
 }
 
-/// Each species' part of all rows' contents, weighted by frames.
+/// Share of each species in the grains' area, volume or mass, over all rows weighted by frames.
 std::vector<double> composition_of(const FitTable& table)
 {
   std::vector<double> content(table.species.size());
@@ -127,7 +127,7 @@ bool same_composition(const std::vector<double>& a, const std::vector<double>& b
                     [](double x, double y) { return std::abs(x - y) <= composition_tolerance; });
 }
 
-/// How many tables each flow has, of "4,4,2".
+/// Numbers of tables of the flows, from a text like "4,4,2".
 std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tables)
 {
   std::vector<std::size_t> counts;
@@ -139,8 +139,8 @@ std::vector<std::size_t> counts_of(const std::string& grouping, std::size_t tabl
   const auto sum = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   if (std::ranges::find(counts, 0U) != counts.end() || sum != tables)
     throw UsageError(fmt::format(
-        "--flows {}: write auto, or how many of the tables ({} here) are of each flow, in "
-        "their order, as in 4,4,2",
+        "--flows {}: write auto, or the number of tables of each flow, in the order of the tables "
+        "and {} in all, as in 4,4,2",
         grouping, tables));
   return counts;
 }
@@ -179,14 +179,14 @@ std::vector<Flow> by_likeness(const std::vector<FitTable>& tables)
   return flows;
 }
 
-/// Slope of the base: the angle between gravity and its normal, degrees.
+/// Slope of the base, degrees: the angle between gravity and the normal of the base.
 double slope_of(const Table& table)
 {
   return std::atan2(table.header_number("gravity_x"), -table.header_number("gravity_y")) * 180 /
          std::numbers::pi;
 }
 
-/// "Phi_L = 0.30", "Phi = 0.2/0.3/0.5".
+/// Composition in words: "Phi_L = 0.30", or "Phi = 0.2/0.3/0.5" for three species.
 std::string composition_words(const Flow& flow)
 {
   return flow.composition.size() <= 2
@@ -194,7 +194,7 @@ std::string composition_words(const Flow& flow)
              : fmt::format("Phi = {:.2f}", fmt::join(flow.composition, "/"));
 }
 
-/// Adds a setting in which flows differ: a column, and a part of the flow's name.
+/// Adds a setting in which flows differ, to the flow's settings and to its name.
 void add_setting(Flow& flow, const std::string& key, const std::string& unit,
                  const std::string& value)
 {
@@ -203,7 +203,7 @@ void add_setting(Flow& flow, const std::string& key, const std::string& unit,
   flow.name += fmt::format(", {} = {}", key, number ? fmt::format("{:.4g}", *number) : value);
 }
 
-/// Adds the keys of scenes in which flows differ.
+/// Adds the scene keys in which flows differ to the flow's settings and name.
 void describe_scene(Flow& flow, const std::vector<const Table*>& tables, const Table& table)
 {
   std::set<std::string> keys;
@@ -221,7 +221,7 @@ void describe_scene(Flow& flow, const std::vector<const Table*>& tables, const T
   }
 }
 
-/// Adds what tells a flow from the others to its name and settings.
+/// Sets the name and the settings of a flow from everything in which flows differ.
 void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTable>& tables)
 {
   const auto& own = *tables[flow.tables.front()].table;
@@ -296,7 +296,7 @@ FitData of_flow(const FitData& data, std::size_t flow)
       part.flows.push_back(flow);
     }
   const auto flow_of_window = data.flows_of_windows();
-  std::vector<std::size_t> window_of;  // of each window its number in the part
+  std::vector<std::size_t> window_of;  // for each window of `data`, its index in `part`
   window_of.reserve(flow_of_window.size());
   std::size_t own = 0;
   for (const auto of : flow_of_window) window_of.push_back(of == flow ? own++ : own);

@@ -24,8 +24,8 @@ const std::vector<std::string> fit_words{"paper"};
 std::string rules_help()
 {
   std::string text =
-      "the large grain's share of a mixed contact, one between a large and a small grain; each rule "
-      "gives a row.";
+      "rules for the large grain's share of the stress of a mixed contact (between a large and a "
+      "small grain); the table has a row for each rule.";
   for (const auto& rule : rule_definitions())
     text += fmt::format("\n{}{}{}{}: {}{}", rule.word, *rule.number == '\0' ? "" : ":", rule.number,
                         rule.kind == PartitionRule{}.kind ? " (default)" : "", rule.meaning,
@@ -38,13 +38,13 @@ std::string rules_help()
 std::string over_help()
 {
   std::string text =
-      "population of the intervals. A run is one simulation; a flow: runs that differ in their seed "
-      "alone; a window: a stretch of a run.";
+      "statistical population that the 95 % intervals are for. A run is one simulation; a flow is "
+      "a set of runs that differ only in their seed; a window is an interval of time in a run.";
   for (const auto& [word, population, meaning] : populations)
     text += fmt::format("\n{}: {}", word, meaning);
   return text +
-         "\ndefault: windows of one run, or runs of one flow; for several flows a row for each over "
-         "its runs, then rows for all over flows";
+         "\ndefault: windows for one run, runs for several runs of one flow; for several flows a row "
+         "for each flow over its runs, then rows for all flows together over flows";
 }
 
 void parse_ratio_range(const std::string& text, FitFilters& filters)
@@ -75,31 +75,33 @@ po::options_description FitOptions::description()
   add("quantity", word_option(&quantity, words_of(quantities)),
       ("stress to fit: " + list_of(quantities)).c_str());
   add("fit", word_option(&fit, fit_words),
-      "paper: also the fits of Staron & Phillips (2015), sigma^S/sigma^L = s phi_S/phi_L, B from s, "
-      "and sigma^S/sigma^L = k (phi_S/phi_L)^a");
+      "paper: also print the fits of Staron & Phillips (2015): s of sigma^S/sigma^L = s "
+      "phi_S/phi_L, B from s, and k and a of sigma^S/sigma^L = k (phi_S/phi_L)^a");
   add("base-part", word_option(&base, words_of(base_parts)),
-      ("part of a contact with the base or a wall that its grain gets: " + list_of(base_parts) +
-       " (default: as in the table)")
+      ("part of the stress of a contact with base or wall that its grain gets: " +
+       list_of(base_parts) + " (default: as in the table)")
           .c_str());
-  add("pair", text(pair, "A,B"), "two of the species, by name or number (default: all pairs)");
+  add("pair", text(pair, "A,B"), "B of these two species, by name or number (default: all pairs)");
   add("exponent", po::bool_switch(&exponent),
-      "also the exponent a with which stress goes by grain size: sigma^nu/sigma = phi^nu s_nu^a/(sum "
-      "over mu of phi^mu s_mu^a), s_nu the diameter of species nu; for three species or more always");
+      "also print the exponent a by which stress depends on grain size: sigma^nu/sigma = phi^nu "
+      "s_nu^a/(sum over mu of phi^mu s_mu^a), s_nu: diameter of species nu; always printed for three "
+      "or more species");
   add("scan", text(scan, "p0:p1:dp"),
-      "instead of rules, B at the shares p of every mixed contact from p0 to p1 in steps of dp");
+      "instead of B by rules, print B as function of the large grain's share p, from p0 to p1 in "
+      "steps of dp");
   add("over", word_option(&over, words_of(populations)), over_help().c_str());
   add("flows", text(flows, "N,N,...")->default_value("auto"),
-      "numbers of tables, in their order, that are of each flow; auto: tables are of one flow if "
+      "number of tables of each flow, in the order of the tables; auto: tables are of one flow if "
       "their headers and overall compositions agree");
   add("bootstrap", number(bootstrap, "N")->default_value(1000),
-      "samples for the 95 % intervals; 0: no intervals");
-  add("seed", number(seed, "N")->default_value(1), "seed of the samples");
+      "number of bootstrap samples for the 95 % intervals; 0: no intervals");
+  add("seed", number(seed, "N")->default_value(1), "seed of the random numbers for these samples");
   add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
-      "range of phi_S/phi_L in layers that take part");
+      "range of phi_S/phi_L of the layers to use");
   filters.add_layers_to(options);
   filters.add_times_to(options);
   add("json", po::bool_switch(&json), "print JSON instead of a table");
-  add("quiet", po::bool_switch(&quiet), "no remarks on standard error");
+  add("quiet", po::bool_switch(&quiet), "print no remarks on standard error");
   output.add_to(options);
   return options;
 }
@@ -134,7 +136,8 @@ std::vector<PartitionRule> rules_of(const FitOptions& s, const Table& first)
   return {parse_rule(header_or(first, "partition", "size"))};
 }
 
-/// UsageError where the species of the tables do not make a pair, or too many for a scan.
+/// Pairs of species to fit. Throws UsageError if the tables have fewer than two species, or more
+/// than two for a scan.
 std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& species)
 {
   if (species.size() < 2)
@@ -146,7 +149,7 @@ std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& specie
   return all_pairs(species.size());
 }
 
-/// UsageError where the runs and flows at hand cannot be the population asked for.
+/// Throws UsageError if the runs and flows of the tables do not allow the population of --over.
 void require_population(const FitOptions& s, const FitData& data)
 {
   if (s.over.empty()) return;
@@ -154,18 +157,18 @@ void require_population(const FitOptions& s, const FitData& data)
   const auto flows = data.number_of_flows();
   if (over == Population::runs && flows > 1)
     throw UsageError(
-        fmt::format("--over runs: the tables hold runs of {} flows; without --over each has its "
-                    "own interval, --over flows gives one number for all, and --flows tells "
+        fmt::format("--over runs: the tables are of {} flows; without --over each flow has its "
+                    "own interval, --over flows gives one number for all, and --flows says "
                     "which tables belong together",
                     flows));
   if ((over == Population::runs || over == Population::compositions) && data.runs.size() < 2)
     throw UsageError(fmt::format(
-        "--over {}: there is one run; give the tables of several, or --over windows", s.over));
+        "--over {}: there is one run; name tables of several runs, or use --over windows", s.over));
   const bool of_flows = over == Population::flows || over == Population::equal_flows ||
                         over == Population::random_flows;
   if (of_flows && flows < 2)
     throw UsageError(fmt::format(
-        "--over {}: all tables are of one flow; leave the option out, or tell with --flows "
+        "--over {}: all tables are of one flow; leave the option out, or say with --flows "
         "which tables belong together",
         s.over));
   if (!s.scan.empty() && (over == Population::equal_flows || over == Population::random_flows))
@@ -175,8 +178,7 @@ void require_population(const FitOptions& s, const FitData& data)
                     s.over));
 }
 
-/// Population of the rows' intervals: "runs"; "runs, then flows" where flows have rows of their
-/// own.
+/// Population of the intervals: "runs", or "runs, then flows" if each flow has its own rows.
 std::string over_words(const FitReport& report)
 {
   const auto of = [](const RuleFit& fit) { return std::string(word_of(fit.over, populations)); };
@@ -184,7 +186,7 @@ std::string over_words(const FitReport& report)
   return rows.front().flow ? of(rows.front()) + ", then " + of(rows.back()) : of(rows.back());
 }
 
-/// The lines that say how the fit was made.
+/// Header lines with the settings of the fit and the numbers of rows, runs and windows.
 Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& preset,
                  const std::vector<Table>& tables, const FitReport& report, const FitData& data)
 {

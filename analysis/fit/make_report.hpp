@@ -24,13 +24,13 @@ struct FitOptions {
   FitFilters filters;
 
   po::options_description description();
-  /// Refuses what cannot be meant, before any table is read, and sets `filters` from the words.
+  /// Throws UsageError for invalid values, before any table is read; sets `filters`.
   void check(const po::variables_map& values);
 };
 
-/// All that grseg-fit prints of these tables, without the command at hand in its history.
-/// UsageError where the options and the tables do not fit each other, FormatError where a table
-/// lacks what is asked for.
+/// All that grseg-fit prints for these tables. The history does not yet include the running
+/// command. Throws UsageError if the options do not fit the tables, and FormatError if a table
+/// lacks a column or header line that the options need.
 FitReport make_report(const ToolInfo& info, const FitOptions& options, const std::string& preset,
                       const std::vector<Table>& tables);
 

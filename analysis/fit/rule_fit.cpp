@@ -10,15 +10,15 @@
 namespace grseg {
 namespace {
 
-/// Removes what has no meaning where the partial stresses do not add up.
+/// Sets B and paper_B to NaN, which have no meaning if the partial stresses do not add up.
 void remove_b(RuleFit& fit)
 {
   for (auto* all : {&fit.value, &fit.low, &fit.high, &fit.error}) all->B = all->paper_B = no_number;
   fit.B_over.fill({});
 }
 
-/// Sets B over every population that the data allow, and the intervals of all estimators over the
-/// fit's own.
+/// Sets the intervals of all estimators over fit.over, and B over every population that the data
+/// allow.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
                    const Bootstrap& bootstrap)
 {
@@ -44,6 +44,7 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
   }
 }
 
+/// B of the fit minus B by size; `size_points` are the points under the rule size.
 Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& windows,
                     const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
 {
@@ -59,8 +60,8 @@ Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& w
                                  influence_on(b, windows) - influence_on(b, by_size))};
 }
 
-/// Degrees of freedom of the differences between flows that the fit of composition took out of the
-/// noise.
+/// Degrees of freedom of the differences between flows that the regression on composition
+/// (least_squares.hpp) removed from the noise.
 double degrees_taken_by_composition(const FitData& data)
 {
   const auto flow_of_window = data.flows_of_windows();
@@ -70,13 +71,12 @@ double degrees_taken_by_composition(const FitData& data)
                                 numbers_of(data.samples, &LayerSample::weight_in_b), flow);
 }
 
-/// A sentence on what limits the interval, mostly "".
+/// Warning about the interval of B, usually "".
 std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows,
                      const Bootstrap& bootstrap)
 {
   if (!std::isfinite(fit.value.B))
-    return fmt::format("in none of {} layers and windows does either species bear a stress",
-                       fit.points);
+    return fmt::format("no species bears a stress in any of the {} layers and windows", fit.points);
   if (bootstrap.count() == 0) return {};
   if (fit.over == Population::windows) return bootstrap.doubt_of_windows(fit.dependence);
   const auto flows = data.number_of_flows();
@@ -88,20 +88,20 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
     if (chance >= 0.05) return bootstrap.doubt_of_runs(fit.dependence);
     return fmt::format(
         "flows differ by more than one function of composition explains (Fisher's test: {:.2g}): "
-        "over compositions the interval is too wide for these flows and too narrow for others; "
+        "the interval over compositions is too wide for these flows and too narrow for others; "
         "see the intervals over flows, equal-flows and random-flows",
         chance);
   }
   return doubt_of_flows(fit, errors.single_runs(), flows);
 }
 
+/// Points under the rule uniform:share.
 std::vector<FitPoint> points_at(const FitData& data, double share, const FitSettings& settings)
 {
   return fit_points(data, {PartitionRule::Kind::uniform, share}, settings);
 }
 
-/// The uniform share p of all mixed contacts that gives the same B as `points`, which some rule
-/// made: (B - B at p = 0)/(B at p = 1 - B at p = 0).
+/// The share p at which uniform:p gives the B of `points`: (B - B(0))/(B(1) - B(0)).
 double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
                       const FitSettings& settings)
 {
@@ -135,7 +135,7 @@ std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::siz
         single_runs, flows, single_runs == 1 ? "has" : "have");
   if (!(fit.degrees <= 3.5)) return {};
   return fmt::format(
-      "{} runs of {} flows leave {:.2g} degrees of freedom; more runs of each "
+      "{} runs of {} flows leave {:.2g} degrees of freedom; more runs of each flow "
       "give a narrower interval",
       fit.runs, flows, fit.degrees);
 }
@@ -185,8 +185,8 @@ namespace {
 
 /// Sums by window at one share p, from which B(p) and its slope follow.
 struct AtShare {
-  WindowSums value;       // psi_L - phi_L
-  WindowSums derivative;  // d psi_L/dp in its place
+  WindowSums value;       // sums of psi_L - phi_L
+  WindowSums derivative;  // the same sums with d psi_L/dp in place of psi_L - phi_L
 };
 
 AtShare at_share(const FitData& data, double share, const FitSettings& settings)
@@ -203,7 +203,7 @@ AtShare at_share(const FitData& data, double share, const FitSettings& settings)
   return {window_sums(points, data.runs), window_sums(slopes, data.runs)};
 }
 
-/// Newton's method; one step where B(p) is straight.
+/// The share p at which B(p) = 0, by Newton's method: one step if B(p) is a straight line.
 double zero_of_b(const FitData& data, const FitSettings& settings)
 {
   double share = 0.5;
@@ -219,8 +219,8 @@ double zero_of_b(const FitData& data, const FitSettings& settings)
 
 }  // namespace
 
-// With E the sum over frames of psi_L - phi_L, a window adds its part of E over -dE/dp to p*, and
-// its part of dE/dp over sum f phi_L phi_S to dB/dp.
+// Influence of a window w is E_w/(-dE/dp) on p* and (dE_w/dp - dB/dp Q_w)/Q on dB/dp. E is the sum
+// of psi_L - phi_L over frames and layers, Q the sum of phi_L phi_S; E_w and Q_w are sums over w.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
                               const Bootstrap& bootstrap, Population over)
 {

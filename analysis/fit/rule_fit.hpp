@@ -13,67 +13,67 @@
 
 namespace grseg {
 
-/// B over the share p that the large grain gets of every mixed contact. Of two species it is a
-/// straight line, B = dB_dp (p - p_zero), since sigma^L is linear in p and B in sigma^L. Where
-/// contacts are counted at the grains' centres (--assign grain) the whole stress of a layer depends
-/// on p, too, and the line is the tangent where B = 0.
+/// B as a function of the share p of every mixed contact that its large grain gets. For two species
+/// it is a straight line, B = dB_dp (p - p_zero), since sigma^L is linear in p and B in sigma^L. If
+/// contacts are counted at the grains' centres (--assign grain), the total stress of a layer
+/// depends on p, too; the line is then the tangent of B(p) at B = 0.
 struct LineOverShare {
-  Measured p_zero;  // p*, where B = 0
+  Measured p_zero;  // p*, the share at which B = 0
   Measured dB_dp;
 };
 
 /// The fit of one partition rule to the data of two species. `share`, `neutral` and `line` are
-/// known only where there is no third species.
+/// NaN if the tables have a third species.
 struct RuleFit {
   PartitionRule rule;
-  std::size_t points = 0;                 // layers and windows
-  double share = no_number;               // the p that gives this B; drop: NaN
-  Population over = Population::windows;  // what the intervals of 95 % are over
-  std::optional<std::size_t> flow;        // number of its flow; none: of all flows
-  std::size_t runs = 0;
-  Estimators value, low, high, error;
-  double degrees = no_number;  // of freedom of the interval of B
+  std::size_t points = 0;                 // number of samples: layers x windows
+  double share = no_number;               // uniform share p that gives the same B; drop: NaN
+  Population over = Population::windows;  // population of the 95 % intervals
+  std::optional<std::size_t> flow;        // index of the flow; none: fit of all flows
+  std::size_t runs = 0;                   // number of runs
+  Estimators value, low, high, error;     // estimates, ends of their intervals, standard errors
+  double degrees = no_number;             // degrees of freedom of the interval of B
   Estimate estimate(double Estimators::*place) const
   {
     return {value.*place, low.*place, high.*place};
   }
-  // B over each population, as far as it is known: see at().
+  // B with its interval over each population, NaN if unknown; read through at().
   std::array<Estimate, std::size(populations) + 1> B_over = {};
   Estimate& at(Population population) { return B_over[static_cast<std::size_t>(population)]; }
   const Estimate& at(Population population) const
   {
     return B_over[static_cast<std::size_t>(population)];
   }
-  LineOverShare line = {};  // whatever the fit's rule
-  double neutral = no_number;
-  Measured minus_size = {};  // B less B by size, same samples
-  Dependence dependence;
-  std::string doubt;  // a sentence on the intervals, mostly empty
+  LineOverShare line = {};     // B(p); the same for every rule
+  double neutral = no_number;  // B of contacts that ignore grain size (partition_rule.hpp)
+  Measured minus_size = {};    // B minus B by size, from the same samples
+  Dependence dependence;       // dependence of the windows in B (confidence.hpp)
+  std::string doubt;           // warnings about the intervals, usually empty
   SpeciesPair pair = {};
-  std::optional<Estimate> size_exponent = {};  // of all pairs together (fit_pairs.hpp)
+  std::optional<Estimate> size_exponent = {};  // exponent over all pairs (fit_pairs.hpp)
 };
 
-/// How far the windows are from independent under this rule.
+/// Dependence of the windows in B under this rule (confidence.hpp).
 Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
-/// Gives an estimator its error and interval.
+/// Stores the error and the interval of an estimator in `fit`.
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error);
 
-/// A sentence on what limits an interval over runs of several flows, some of which have a single
-/// run; mostly "".
+/// Warning about an interval over runs of several flows: some flows have a single run, or there are
+/// few degrees of freedom. Usually "".
 std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::size_t flows);
 
-/// Adds a sentence to the fit's doubt.
+/// Appends a sentence to fit.doubt.
 void add_doubt(RuleFit& fit, const std::string& doubt);
 
-/// Fits one rule. For `drop` every B is NaN: its partial stresses do not add up to the whole.
-/// `common`: the dependence of windows that several fits share; otherwise the fit finds its own.
-/// fit_pairs.hpp makes the intervals over equal or random flows.
+/// Fits one rule. For `drop` every B is NaN, because its partial stresses do not add up to the
+/// whole. `common`: dependence of windows that several fits share; if empty, it is computed for
+/// this rule. Intervals over equal or random flows are added by fit_flows (fit_pairs.hpp).
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
 
-/// The line of contact stress and two species, NaN of others; errors are over `over`, with windows
-/// as dependent as they are at p*.
+/// p* and dB/dp, for contact stress and two species; otherwise NaN. Errors are over the population
+/// `over`, with the dependence of windows at p*.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
                               const Bootstrap& bootstrap, Population over);
 

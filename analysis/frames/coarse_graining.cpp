@@ -11,10 +11,10 @@ namespace grseg {
 namespace {
 
 constexpr int points_per_unit = 64;
-// Below it the rounding of -u/sqrt(2) alone makes an error of 1e-15 in the primitive.
+// Least u of the series. Below it the rounding of -u/sqrt(2) alone costs 1e-15 of the primitive.
 constexpr int lowest = -10;
 constexpr std::size_t points = -lowest * points_per_unit + 1;
-// At the lowest, half a spacing from a point, what comes after them is 3e-18 of Phi.
+// Number of terms. The rest is largest half a spacing from the point at `lowest`: 3e-18 of Phi.
 constexpr std::size_t terms = 11;
 
 /// Coefficients of the primitive of Phi, in powers of the distance from a point.
@@ -29,7 +29,7 @@ long double below(long double u)
   return std::erfc(-u / std::numbers::sqrt2_v<long double>) / 2;
 }
 
-/// Here u Phi + phi cancels to 1/u^2 of its terms, hence long double.
+/// The primitive of Phi. The sum u Phi + phi is only 1/u^2 of its terms, hence long double.
 long double below_primitive(long double u)
 {
   return u * below(u) + density(u);
@@ -39,7 +39,7 @@ Series series_about(long double u)
 {
   const long double phi = density(u);
   Series series{static_cast<double>(below_primitive(u)), static_cast<double>(below(u))};
-  // phi times Hermite polynomials over factorials: the derivatives of phi.
+  // The derivatives of phi are phi times Hermite polynomials; a coefficient is divided by n!.
   long double last = 0, now = phi / 2;
   for (std::size_t n = 2; n < terms; ++n) {
     series[n] = static_cast<double>(now);
@@ -59,7 +59,7 @@ std::array<Series, points> series_about_all_points()
   return all;
 }
 
-/// Even and odd powers apart: half as long a chain of operations that wait for each other.
+/// Value of a polynomial. Separate sums of even and odd powers halve the chain of dependent steps.
 template <std::size_t terms, class Coefficient>
 double polynomial(double x, const Coefficient& coefficient)
 {
@@ -71,7 +71,7 @@ double polynomial(double x, const Coefficient& coefficient)
   return even + x * odd;
 }
 
-/// The series about the point nearest to u, from `lowest` to 0, and the distance from there.
+/// The series about the point nearest to u (`lowest` to 0), and the distance of u from that point.
 struct Place {
   const Series& series;
   double distance;
@@ -107,9 +107,9 @@ namespace {
 
 // Functions of u = y/w, for a kernel of width 1.
 
-// Beyond it 1e-17 of a Gaussian is left.
+// Distance in units of w beyond which the integral of a Gaussian is 1e-17.
 constexpr double gauss_reach = 8.5;
-// Below it the difference of two primitives has lost more digits than three points miss.
+// Length in units of w below which three_point_mean() is more accurate than two primitives.
 constexpr double short_branch = 0.02;
 
 double gauss(double u)
@@ -142,15 +142,15 @@ double heaviside_below(double u)
 
 using Function = double (*)(double);
 
-/// Mean of f from a to b by three Gauss-Legendre points: exact for polynomials up to degree 5.
+/// Mean of f from a to b by three Gauss-Legendre points, exact for polynomials up to degree 5.
 double three_point_mean(Function f, double a, double b)
 {
   const double middle = a + (b - a) / 2, offset = std::sqrt(0.6) * (b - a) / 2;
   return (5 * f(middle - offset) + 8 * f(middle) + 5 * f(middle + offset)) / 18;
 }
 
-/// Mean from a to b, a < b, of a function that between -1, 0 and 1 and beyond is a polynomial of no
-/// higher degree than 5. No difference of primitives, so nothing is lost where a and b are close.
+/// Mean from a to b, a < b, of a piecewise polynomial of degree at most 5 whose pieces meet at -1,
+/// 0 and 1. It subtracts no primitives, so no digits are lost if a and b are close.
 template <Function f>
 double piecewise_mean(double a, double b)
 {
@@ -163,14 +163,14 @@ double piecewise_mean(double a, double b)
   return sum;
 }
 
-/// True where a Gaussian changes so little from a to b that three points are more accurate than the
-/// difference of two primitives. a is farther from 0 than b.
+/// True if a Gaussian changes so little from a to b that three points are more accurate than the
+/// difference of two primitives. Requires |a| >= |b|.
 bool is_short(double a, double b)
 {
   return (b - a) * std::max(1.0, -a) < short_branch;
 }
 
-/// Means from a to b, a < b, seen from the side where the primitives are small.
+/// Mean of the Gaussian from a to b, a < b, mirrored to negative u, where primitives are small.
 double gauss_mean(double a, double b)
 {
   if (a + b > 0) return gauss_mean(-b, -a);
@@ -185,7 +185,7 @@ double gauss_below_mean(double a, double b)
   return (normal_below_primitive(b) - normal_below_primitive(a)) / (b - a);
 }
 
-/// psi, its primitive and their means over an interval, by KernelShape.
+/// psi, its integral from minus infinity, the means of both over an interval, and the reach.
 struct Functions {
   Function value, below;
   double (*mean)(double a, double b);
@@ -209,7 +209,7 @@ Kernel::Kernel(KernelShape shape, double width) : shape_(shape), width_(width)
 {
   if (!(width > 0) || !std::isfinite(width))
     throw UsageError(
-        fmt::format("a coarse-graining width of {:g} m is not positive; give e.g. 1dS", width));
+        fmt::format("the coarse-graining width {:g} m is not positive; give e.g. 1dS", width));
 }
 
 double Kernel::reach() const

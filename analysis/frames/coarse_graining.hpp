@@ -12,18 +12,19 @@
 namespace grseg {
 
 /// The standard normal distribution Phi(u), and its primitive, the integral of Phi from minus
-/// infinity to u: u Phi(u) + phi(u) without the digits that this sum loses. Relative error at most
-/// 1e-15 down to u = -10; beyond, where 1e-23 is left, at most 1e-19 u^4.
+/// infinity to u. The primitive equals u Phi(u) + phi(u), but is found without the cancellation of
+/// this sum. Relative error of both at most 1e-15 for u >= -10; below, where Phi < 1e-23, at most
+/// 1e-19 u^4.
 ///
-/// Coarse graining by a Gaussian asks for them at every edge of every layer. Half its time went to
-/// std::erfc and std::exp, so down to -10 they are Taylor series about points 1/64 apart, whose
-/// coefficients contain Hermite polynomials (Abramowitz & Stegun 1964, 26.2.31).
+/// Coarse graining by a Gaussian needs both at every edge of every layer. std::erfc and std::exp
+/// took half its time. So for u >= -10 both functions are Taylor series about points 1/64 apart,
+/// whose coefficients contain Hermite polynomials (Abramowitz & Stegun 1964, 26.2.31).
 double normal_below(double u);
 double normal_below_primitive(double u);
 
 /// Shapes of psi(u) for u = y - y_i in units of the width w, all even and of integral 1:
 ///   gauss      exp(-u^2/2) / (sqrt(2 pi) w); w is its standard deviation. It is not cut off, but
-///              what lies beyond 8.5 w is less than round-off.
+///              its integral beyond 8.5 w is less than round-off.
 ///   lucy       5/4 (1 + 3|u|)(1 - |u|)^3 / w for |u| < 1, 0 beyond; w is half its support, its
 ///              standard deviation is sqrt(2/21) w = 0.31 w.
 ///   heaviside  1/2 / w for |u| < 1, 0 beyond; w is half its support, its standard deviation is
@@ -44,23 +45,23 @@ constexpr Choice<KernelShape> kernel_shapes[] = {{"gauss", KernelShape::gauss},
 /// density of the contact forces, exactly and at every y. Heights in m, psi in 1/m.
 class Kernel {
  public:
-  /// UsageError unless the width (m, see KernelShape) is positive.
+  /// Throws UsageError unless the width (m, see KernelShape) is positive.
   Kernel(KernelShape shape, double width);
 
   KernelShape shape() const { return shape_; }
   double width() const { return width_; }
-  /// Distance beyond which nothing is left but round-off, m.
+  /// Distance beyond which the integral of psi is less than round-off, m.
   double reach() const;
 
-  /// psi(u), and its integral from minus infinity to u, 0 to 1.
+  /// psi(u), 1/m, and its integral from minus infinity to u, 0 to 1; u in m.
   double value(double u) const;
   double below(double u) const;
 
-  /// The line integral A(y) above, 1/m, in closed form: to round-off for branches of any length,
-  /// level ones too, and in the tails.
+  /// The line integral A(y) above, 1/m, in closed form. It is accurate to round-off for branches of
+  /// any length, also level ones, and in the tails of psi.
   double along(double y, double from, double to) const;
-  /// Its integral over all heights up to y, 0 to 1. What lies above y is below_along(from + to - y,
-  /// from, to), which loses no digits where it is small.
+  /// Integral of A over all heights up to y, 0 to 1. Its integral above y is below_along(from + to
+  /// - y, from, to), which loses no digits if it is small.
   double below_along(double y, double from, double to) const;
 
  private:
@@ -68,11 +69,11 @@ class Kernel {
   double width_;
 };
 
-/// Calls book(layer, share) with the integrals over each of `count` layers of the kernel spread
-/// from one height to another; `from` = `to` is a grain's own kernel. The shares add up to 1: as
-/// with all that is booked (layers.hpp), the first layer also takes what lies below it and the last
-/// what lies above. A share over the layer's thickness is thus the mean of the field over the
-/// layer, which tends to Layers::share_segment as the width tends to 0.
+/// Calls book(layer, share) for each of `count` layers with the integral over the layer of
+/// Kernel::along, the kernel spread from height `from` to height `to`. `from` = `to` gives the
+/// kernel of a single grain. The shares add up to 1, because the first layer includes everything
+/// below it and the last everything above it (as in layers.hpp). share/thickness is the mean of the
+/// field over the layer. As the width tends to 0, the result tends to Layers::share_segment.
 template <class Book>
 void share_kernel(const Layers& layers, const Kernel& kernel, double from, double to,
                   std::size_t count, const Book& book)

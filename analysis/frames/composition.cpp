@@ -58,7 +58,7 @@ template <int D>
 BedHeights bed_heights(const Grains& grains, const Frame<D>& frame)
 {
   std::array<double, 2> mass{}, moment{};
-  double all = 0, all_moment = 0;  // areas over pi, or volumes over 4 pi/3
+  double all = 0, all_moment = 0;  // sums of c and of c y; c: area over pi or volume over 4 pi/3
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);

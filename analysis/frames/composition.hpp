@@ -5,6 +5,7 @@
 #include "analysis/frames/layers.hpp"
 #include "analysis/frames/sums.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
 
 #include <cassert>
@@ -14,33 +15,37 @@
 
 namespace grseg {
 
-/// How the area or volume of a grain is given to layers: cut at their edges, whole where its centre
-/// is, or spread about its centre by a coarse-graining kernel (coarse_graining.hpp).
+/// How the area or volume of a grain is divided among layers: cut at the layers' edges, whole in
+/// the layer of the grain's centre, or spread about the centre by a kernel (coarse_graining.hpp).
 enum class GrainArea { clipped, centre, kernel };
 inline constexpr Choice<GrainArea> grain_areas[] = {
     {"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}, {"kernel", GrainArea::kernel}};
 
-/// Area (m^2) or volume (m^3) of the mobile grains of each species in each layer. The local
-/// composition phi is a species' part of their sum, the solid fraction nu their sum over V. Means
-/// per frame.
+/// Area (m^2) or volume (m^3) of the mobile grains of each species in each layer, as a mean over
+/// the frames. The local composition phi of a species is its part of the sum over all species. The
+/// solid fraction nu is this sum over the volume V of the layer.
 template <int D>
 class Composition {
  public:
-  using Contents = std::vector<double>;  // by species, m^2 or m^3
+  using Contents = std::vector<double>;  // area or volume of grains, by species, m^2 or m^3
 
-  /// `kernel` belongs to GrainArea::kernel.
+  /// `kernel` is required for GrainArea::kernel and unused otherwise. Throws UsageError for spheres
+  /// that would be clipped at annuli.
   Composition(const Layers& layers, GrainArea rule, std::optional<Kernel> kernel = std::nullopt,
               std::size_t species = 2)
       : layers_(layers), rule_(rule), kernel_(kernel), species_(species)
   {
     assert(kernel_ || rule_ != GrainArea::kernel);
+    if (D == 3 && layers.axis() && !layers.map() && rule == GrainArea::clipped)
+      throw UsageError(
+          "--bins radius: spheres are not clipped at annuli; use --composition centre");
   }
 
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const Composition& others);
   std::size_t layers() const { return sums_.size(); }
   Contents mean(std::size_t layer) const;
-  /// All layers together.
+  /// Sum over all layers of the mean contents.
   Contents mean() const;
 
  private:
@@ -52,9 +57,9 @@ class Composition {
   std::vector<Contents> sums_;
 };
 
-/// Heights of the bed, m; NaN where they are not known.
+/// Heights of the bed, m; NaN if they are not known.
 struct BedHeights {
-  // y_L, y_S: centres of mass of the species, where there are two.
+  // Centres of mass y_L, y_S of large and small grains, for runs of two species.
   double large = no_number, small = no_number;
   double bed = no_number;  // twice the mean height of the mobile grains' area or volume
 

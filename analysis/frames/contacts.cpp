@@ -4,7 +4,7 @@
 namespace grseg {
 namespace {
 
-/// n x f, N, about z in two dimensions.
+/// Cross product n x f, N; in two dimensions its component along z.
 template <int D>
 Spin<D> moment(const Vector<D>& n, const Vector<D>& f)
 {

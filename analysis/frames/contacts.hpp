@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// True where a contact bears a force. Files also list pairs that are only close.
+/// True if a contact bears a force. Files also list pairs that are close without a force.
 template <int D>
 bool bears_force(const ContactList<D>& contacts, std::size_t contact)
 {
@@ -23,8 +23,8 @@ bool bears_force(const ContactList<D>& contacts, std::size_t contact)
 /// is n turned by +90 degrees; in three t is along the tangential force, and f_t >= 0.
 template <int D>
 struct ForceParts {
-  Vector<D> n;      // from j to i
-  double f_n, f_t;  // N
+  Vector<D> n;      // unit normal from grain j to grain i
+  double f_n, f_t;  // normal and tangential force, N
 };
 template <int D>
 ForceParts<D> force_parts(const ContactList<D>& contacts, std::size_t contact)
@@ -37,7 +37,7 @@ ForceParts<D> force_parts(const ContactList<D>& contacts, std::size_t contact)
     return {n, f.dot(n), f.cross(n).norm()};
 }
 
-/// The angular velocity, or the torque, that is zero.
+/// Zero as an angular velocity or a torque.
 template <int D>
 Spin<D> no_spin()
 {
@@ -47,16 +47,16 @@ Spin<D> no_spin()
     return Vec3::Zero();
 }
 
-/// Torques of the contacts on all grains, one entry per row of Grains, N m; counter-clockwise, in
-/// three dimensions right-handed about each axis. The force between two grains acts at r_i/(r_i +
-/// r_j) of the branch, so that the lever arms add up to the distance of the centres; at a straight
-/// wall the arm is r_i.
+/// Torques of the contacts on all grains, N m, one entry per row of Grains; positive
+/// counter-clockwise, in three dimensions right-handed about each axis. The force between two
+/// grains acts at r_i/(r_i + r_j) of the branch, so that the lever arms add up to the distance of
+/// the centres. At a straight wall the lever arm is r_i.
 template <int D>
 std::vector<Spin<D>> torques_of(const Grains& grains, const ContactList<D>& contacts);
 
-/// The straight walls of a run by number. Files do not say where they lie, but contacts do: the
-/// contact point lies on the wall, and the branch is normal to it. A wall that nothing touches is
-/// not known.
+/// The straight walls of a run by number. Files do not store the place of a wall, so it is found
+/// from contacts: the contact point lies on the wall, and the branch is normal to it. A wall
+/// without contacts is not known.
 template <int D>
 class Walls {
  public:
@@ -65,7 +65,7 @@ class Walls {
     Vector<D> point, normal;
   };
 
-  /// Learns from the contacts of a frame; what was known of a wall before is replaced.
+  /// Finds the walls that have contacts in a frame, and replaces their earlier places.
   void add(const Frame<D>& frame);
   const std::map<std::int32_t, Wall>& all() const { return walls_; }
 

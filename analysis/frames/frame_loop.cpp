@@ -17,7 +17,7 @@
 namespace grseg {
 namespace {
 
-/// Layers by --layer and --bins, without the cells of a map, which follow from the grains.
+/// Layers or annuli as --layer and --bins say. The cells of a map follow later, from the grains.
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
@@ -29,12 +29,12 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
   const auto plane = options.map();
   if (plane && plane != MapPlane::xy && box.dimension == 2)
     throw UsageError(
-        fmt::format("--bins {}: the run has two dimensions; take --bins xy", options.bins));
+        fmt::format("--bins {}: the run has two dimensions; use --bins xy", options.bins));
   if (!axis) return {thickness, box.length_x, width};
   if (box.periodic_x)
     throw UsageError(fmt::format(
-        "--bins {}: the cell is periodic along x, so that nothing lies at one distance from an "
-        "axis; take {}",
+        "--bins {}: the cell is periodic along x, so the distance from an axis is not defined; "
+        "use {}",
         options.bins, plane ? "xy" : "layers"));
   return Layers::annuli(thickness, box.length_x, *axis, width);
 }
@@ -92,8 +92,8 @@ void FrameLoop::require_two_species() const
   const auto& all = species();
   if (all.size() == 2) return;
   throw UsageError(fmt::format(
-      "{}: {} compares two species, and the run has {} ({}): make them two with --group, as in "
-      "--group S=1 --group L=2,3, with --classes 2, or with one --edges",
+      "{}: {} compares two species, but the run has {} ({}); combine them into two with --group, "
+      "e.g. --group S=1 --group L=2,3, with --classes 2, or with --edges and one diameter",
       run_.path(), info_.name, all.size(), fmt::join(names_of(all), ", ")));
 }
 
@@ -122,19 +122,19 @@ namespace {
 const std::vector<std::string> all_bins{"layers", "radius", "radius:X,Y", "xy",
                                         "xz",     "rz",     "rz:X,Y"};
 
-/// A map may go to a file for other programs, which is no text.
+/// Throws UsageError if the options do not fit a map's file for other programs (.h5, .vti, .pvd).
 void check_map_output(const FrameOptions& options, const po::variables_map& values)
 {
   const auto& output = options.output;
   if (!options.map())
     throw UsageError(
-        fmt::format("-o {}: only maps become such files; take --bins xy, or a name "
+        fmt::format("-o {}: only a map can be written as such a file; use --bins xy, or a name "
                     "that ends in .tsv",
                     output.path));
-  if (options.json) throw UsageError("--json prints text; give it without -o, or a name in .json");
+  if (options.json) throw UsageError("--json writes text; leave out -o, or name a .json file");
   if (output.short_form || output.digits > 0)
     throw UsageError(fmt::format(
-        "-o {}: --short and --digits are for text; leave them out, or take a name in .tsv",
+        "-o {}: --short and --digits are for text; leave them out, or use a name that ends in .tsv",
         output.path));
   check_map_file(output, {single_input(values, "a table is made of one run")});
 }
@@ -145,19 +145,19 @@ void FrameOptions::add_to(po::options_description& options, Makes makes)
 {
   auto add = options.add_options();
   add("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
-      "thickness of the layers: 4dS, 2dL (diameters of small and large grains), 20mm, or metres");
+      "thickness of layers, in diameters (4dS: of small, 2dL: of large grains), 20mm, or metres");
   add("window", window_option(windows),
-      "time to average over; windows that the run does not fill are left out. "
-      "all: one window over all frames used");
-  add("begin", time_option(windows.begin), "first window begins here (default: t = 0)");
-  add("end", time_option(windows.end), "no window ends after this (default: the run)");
+      "length of windows that results are averaged over; windows that the run does not fill are "
+      "left out. all: one window over all frames used");
+  add("begin", time_option(windows.begin), "begin of the first window (default: t = 0)");
+  add("end", time_option(windows.end), "latest end of a window (default: end of the run)");
   add("stride", po::value(&windows.stride)->default_value(1)->value_name("N"),
-      "use one frame in N");
+      "use every N-th frame");
   add("threads", po::value(&threads)->default_value(1)->value_name("N"),
-      "number of threads, 0: one per processor; results are bitwise identical");
+      "number of threads; 0: one per processor. Results do not depend on it, to the last bit");
   trust.add_to(options);
   add("json", po::bool_switch(&json), "print JSON instead of a table");
-  add("quiet", po::bool_switch(&quiet), "no progress and no remarks");
+  add("quiet", po::bool_switch(&quiet), "print no progress and no remarks");
   grouping.add_to(options);
   if (makes == Makes::table)
     output.add_to(options);
@@ -169,10 +169,10 @@ void FrameOptions::add_bins_to(po::options_description& options)
 {
   options.add_options()(
       "bins", word_option(&bins, all_bins),
-      "layers (parallel to the base), radius (annuli about a drum's axis) or radius:X,Y (about "
-      "this axis), of thickness --layer; in annuli y is the distance from the axis, and x runs "
-      "round it clockwise. Or a map of cells of side --layer: xy, in three dimensions also xz and "
-      "rz or rz:X,Y (distance from an axis along z); maps may go to .h5, .vti and .pvd files");
+      "layers: parallel to the base. radius: annuli about a drum's axis; radius:X,Y: about the "
+      "axis at X,Y; y is then the distance from the axis, and x runs clockwise round it. xy, in 3D "
+      "also xz, rz and rz:X,Y: a map of square cells (r: distance from an axis along z), also for "
+      ".h5, .vti and .pvd files. --layer sets the thickness, or the side of a cell");
 }
 
 std::optional<MapPlane> FrameOptions::map() const
@@ -190,14 +190,14 @@ std::optional<Vec2> FrameOptions::axis(const TrajectoryReader& run) const
     const auto centre = numbers.find("drum_centre");
     if (centre == numbers.end() || centre->second.size() != 2)
       throw UsageError(fmt::format(
-          "--bins {0}: the run has no drum; give the axis, as in --bins {0}:0.1m,0.2m", word));
+          "--bins {0}: the run has no drum; give the axis, e.g. --bins {0}:0.1m,0.2m", word));
     return Vec2(centre->second[0], centre->second[1]);
   }
   const std::string place = bins.substr(word.size() + 1);
   const auto comma = place.find(',');
   if (comma == std::string::npos)
     throw UsageError(
-        fmt::format("--bins {}: an axis has two coordinates, as in {}:0.1m,0.2m", bins, word));
+        fmt::format("--bins {}: an axis needs two coordinates, e.g. {}:0.1m,0.2m", bins, word));
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   const auto option = "--bins " + word + ":";
   return Vec2(parse_length(place.substr(0, comma), option, units),
@@ -210,7 +210,7 @@ FrameOptions FrameOptions::checked(const po::variables_map& values) const
   parts.check(output.path);
   if (const auto& part = parts.part) {
     if (json)
-      throw UsageError(fmt::format("--part {} makes a table; give --json to --join", part->text()));
+      throw UsageError(fmt::format("--part {} writes a table; --json is for --join", part->text()));
     own.output.path = part->path(output.path, ".tsv");
   }
   own.output.check(values);

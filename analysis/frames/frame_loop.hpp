@@ -38,72 +38,73 @@ struct FrameOptions {
 
   enum class Makes { table, page };
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
-  /// --quiet --group --classes --edges, and of a table --short --digits.
+  /// --quiet --group --classes --edges; for a table also --short --digits.
   void add_to(po::options_description& options, Makes makes = Makes::table);
-  /// Adds --bins, for tools that also know annuli and maps.
+  /// Adds --bins, for tools that also offer annuli and maps.
   void add_bins_to(po::options_description& options);
-  /// Adds --part and --join, for tools whose table has rows of one window each.
+  /// Adds --part and --join, for tools of which each table row depends on one window only.
   void add_parts_to(po::options_description& options) { parts.add_to(options); }
 
   bool annuli() const { return bins.starts_with("radius"); }
-  /// The plane of a map, where --bins names one.
+  /// The plane of the map; nothing unless --bins asks for a map.
   std::optional<MapPlane> map() const;
-  /// x and y of the axis about which bins lie: the one that --bins names, or else the axis of the
-  /// run's drum. UsageError where --bins names neither a kind of bins nor an axis.
+  /// x and y of the axis of annuli or of a map rz, m: the axis in --bins, or else the axis of the
+  /// run's drum. Nothing for other bins. Throws UsageError if --bins is not a kind of bins, or has
+  /// no valid axis.
   std::optional<Vec2> axis(const TrajectoryReader& run) const;
-  /// These options with the number of threads in place of 0 and, with --part, the name of the
-  /// part's file as output. UsageError where the output cannot be made, or not with these options.
+  /// These options with --threads 0 replaced by the number of processors and, with --part, the
+  /// output replaced by the part's file. Throws UsageError if the output cannot be written, or not
+  /// with these options.
   FrameOptions checked(const po::variables_map& values) const;
 };
 
-/// UsageError, "--option why", where one of `options` was given although it has no meaning here.
+/// Throws UsageError, "--option why", if the user gave one of `options`, which do not apply here.
 void refuse_options(const po::variables_map& values, const std::vector<const char*>& options,
                     const char* why);
 
-/// A run cut into layers, or the cells of a map, and windows. All tools use this class, so that
-/// their rows join on (t0, t1, y0, y1), and rows of maps on (t0, t1, x0, x1, y0, y1) or their own
-/// axes. Results go to a table (table_writer.hpp).
+/// A run, divided into windows and into layers or the cells of a map. All tools use this class, so
+/// that their tables can be joined on the columns (t0, t1, y0, y1), and maps on (t0, t1, x0, x1,
+/// y0, y1) or the edges along the map's own axes. table_writer.hpp writes the results.
 class FrameLoop {
  public:
-  /// Opens the one run that the command line names. UsageError where it names none or several.
+  /// Opens the run that the command line names. Throws UsageError unless it names exactly one.
   FrameLoop(const ToolInfo& info, const po::variables_map& values, const FrameOptions& options);
 
   const ToolInfo& info() const { return info_; }
-  /// As given, but checked (FrameOptions::checked).
+  /// The options after FrameOptions::checked().
   const FrameOptions& options() const { return options_; }
   /// The value of --preset.
   const std::string& preset() const { return preset_; }
   const TrajectoryReader& run() const { return run_; }
-  /// 2 or 3: the D of `sum`.
+  /// Dimension of the run, 2 or 3: the D of `sum`.
   int dimension() const { return run_.dimension(); }
-  /// The grains with the species that are told apart (grouping.hpp), and these.
+  /// Grains and species after --group, --classes or --edges (grouping.hpp).
   const Grains& grains() const { return grouped_.grains; }
   const SpeciesList& species() const { return grouped_.species; }
-  /// UsageError with the remedy unless these are two.
+  /// Throws UsageError, with a remedy, unless there are two species.
   void require_two_species() const;
-  /// FormatError unless the run has the forces on its grains; `what` they are needed for, `remedy`.
+  /// Throws FormatError with `what`, the quantity that needs the forces on grains, and `remedy`,
+  /// unless the run stores these forces.
   void require_forces(const char* what, const char* remedy) const;
   const Layers& layers() const { return layers_; }
-  double window_length() const { return windows_.length; }  // s
-  /// Windows to sum over: all, or the part that --part names; none with --join, whose rows other
-  /// files have.
+  double window_length() const { return windows_.length; }  // length of a window, s
+  /// Windows to sum over: all of them, or the part that --part selects. None with --join, which
+  /// reads the rows from the files of the parts.
   std::span<const Window> windows() const;
 
-  /// How often `sum` will be called for each window, for the progress that is shown; once, unless
-  /// told.
+  /// Sets how often `sum` will be called for each window (default: once), for the progress bar.
   void expect_passes(int passes);
   void clear_progress() { progress_.clear(); }
 
-  /// Sums over the frames of a window. Each of `empty`, accumulators without frames, is returned
-  /// with all frames added:
+  /// Copies of `empty`, accumulators without frames, to which the frames of a window are added:
   ///
   ///   const auto [areas, stress] =
   ///       loop.sum<D>(window, fields, Composition<D>(...), PartialContactStress<D>(...));
   ///
-  /// An accumulator has add(grains, frame) and merge(others), which adds the sums of another one.
-  /// Threads sum blocks of frames, and the blocks' sums are merged in order. A block has the same
-  /// number of frames whatever the number of threads, so that results are bitwise identical. As
-  /// many frames are in memory as there are threads.
+  /// An accumulator has add(grains, frame) and merge(others), which adds another one's sums. Each
+  /// thread sums blocks of frames, and the sums of the blocks are merged in the order of time. The
+  /// size of a block does not depend on the number of threads, so results are bitwise identical.
+  /// The memory contains as many frames as there are threads.
   template <int D, class... Sums>
   std::tuple<Sums...> sum(const Window& window, TrajectoryReader::Fields fields,
                           const Sums&... empty);
@@ -111,7 +112,7 @@ class FrameLoop {
  private:
   template <int D>
   void read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields);
-  /// The cells that hold the grains of all windows, whose frames are read for that.
+  /// Cells that cover the grains in all windows. Reads all frames to find where the grains are.
   template <int D>
   Layers map_of(MapPlane plane, const std::optional<Vec2>& axis);
 
@@ -124,7 +125,7 @@ class FrameLoop {
   Windows windows_;
   ProgressBar progress_;
   std::size_t frames_done_ = 0;
-  std::mutex reading_;  // the HDF5 library knows no threads
+  std::mutex reading_;  // protects the HDF5 library, which is not thread-safe
 };
 
 template <int D, class... Sums>
@@ -144,7 +145,7 @@ std::tuple<Sums...> FrameLoop::sum(const Window& window, TrajectoryReader::Field
     return sums;
   };
   std::tuple<Sums...> total(empty...);
-  std::size_t done = 0;  // of this window
+  std::size_t done = 0;  // frames of this window that are merged
   const auto merge = [&](const std::tuple<Sums...>& sums) {
     std::apply(
         [&](Sums&... all) {

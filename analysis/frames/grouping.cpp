@@ -35,10 +35,9 @@ std::size_t find_species(const SpeciesList& species, const std::string& word,
       fmt::format("--group {}: the run has no species '{}'; it has {}", option, word, all));
 }
 
-/// The number of a group for every species of the run.
 struct Groups {
   std::vector<std::string> names;
-  std::vector<std::size_t> of_species;
+  std::vector<std::size_t> of_species;  // index in `names`, for every species of the run
 };
 
 Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& options)
@@ -49,15 +48,15 @@ Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& 
     const auto name = option.substr(0, sign);
     if (sign != std::string::npos && (name == "b" || name == name_of_boundary))
       throw UsageError(
-          fmt::format("--group {}: '{}' stands for boundary grains in columns; choose another name",
+          fmt::format("--group {}: '{}' denotes boundary grains in columns; choose another name",
                       option, name));
     if (sign == std::string::npos || !is_species_name(name))
       throw UsageError(fmt::format(
-          "--group {}: write NAME=LIST, as in AM=1,2, with a name of at most 15 letters, digits, "
+          "--group {}: write NAME=LIST, e.g. AM=1,2, with a name of at most 15 letters, digits, "
           "'_', '-' or '.'",
           option));
     if (std::ranges::find(groups.names, name) != groups.names.end())
-      throw UsageError(fmt::format("--group {} is given twice; name all its species in one", name));
+      throw UsageError(fmt::format("--group {} is given twice; list all its species once", name));
     for (const auto& word : words_of(option.substr(sign + 1))) {
       auto& group = groups.of_species[find_species(species, word, option)];
       if (group != no_one)
@@ -69,7 +68,7 @@ Groups parse_groups(const SpeciesList& species, const std::vector<std::string>& 
   for (std::size_t k = 0; k < species.size(); ++k)
     if (groups.of_species[k] == no_one)
       throw UsageError(
-          fmt::format("species {} ({}) is in no --group; name it in one", k + 1, species[k].name));
+          fmt::format("species {} ({}) is in no --group; add it to one", k + 1, species[k].name));
   return groups;
 }
 
@@ -79,18 +78,18 @@ std::vector<double> parse_edges(const std::string& text, LengthUnits units)
   for (const auto& word : words_of(text)) edges.push_back(parse_length(word, "--edges", units));
   if (edges.empty() || !std::ranges::is_sorted(edges, std::less_equal<>()))
     throw UsageError(
-        fmt::format("--edges {}: give diameters in increasing order, as in 2mm,3mm", text));
+        fmt::format("--edges {}: give diameters in increasing order, e.g. 2mm,3mm", text));
   return edges;
 }
 
-/// A size that some mobile grains have, and what part of all volume smaller ones have.
+/// A size of mobile grains: diameter (m), and the share of all volume in smaller grains, 0 to 1.
 struct Size {
   double diameter, below;
 };
 
 std::vector<Size> sizes_of(const Grains& grains, int dimension)
 {
-  constexpr double digits = 1e-9;  // of diameters that are meant to be the same
+  constexpr double digits = 1e-9;  // relative difference up to which diameters count as equal
   std::vector<double> diameters;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g)) diameters.push_back(2 * grains.radius[g]);
@@ -105,23 +104,23 @@ std::vector<Size> sizes_of(const Grains& grains, int dimension)
   return sizes;
 }
 
-/// Diameters that divide the mobile grains into classes whose volumes are as equal as their sizes
-/// allow: each edge is the size that divides nearest to its share.
+/// Diameters (m) that divide the mobile grains into classes of equal volume, as far as the sizes
+/// allow: at each edge, the volume of smaller grains is as near as possible to k/classes of all.
 std::vector<double> edges_of_classes(const Grains& grains, int dimension, int classes)
 {
   const auto sizes = sizes_of(grains, dimension);
   const auto count = static_cast<std::size_t>(classes);
   if (sizes.size() < count)
     throw UsageError(
-        fmt::format("--classes {}: the mobile grains have {} different diameters; take at most as "
-                    "many classes, or give --edges",
+        fmt::format("--classes {}: the mobile grains have only {} different diameters; use at most "
+                    "this many classes, or --edges",
                     classes, sizes.size()));
   std::vector<double> edges;
   std::size_t first = 1;
   for (std::size_t k = 1; k < count; ++k) {
     const double share = static_cast<double>(k) / classes;
     const auto begin = sizes.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = sizes.end() - static_cast<std::ptrdiff_t>(count - 1 - k);  // edges to come
+    const auto end = sizes.end() - static_cast<std::ptrdiff_t>(count - 1 - k);  // for later edges
     const auto nearest = std::min_element(begin, end, [&](const Size& a, const Size& b) {
       return std::abs(a.below - share) < std::abs(b.below - share);
     });
@@ -131,7 +130,8 @@ std::vector<double> edges_of_classes(const Grains& grains, int dimension, int cl
   return edges;
 }
 
-/// Gives every mobile grain the number that `number_of` says, and makes the list of these species.
+/// Grains of the run with new species, sorted by Sauter mean diameter: grain g belongs to
+/// names[number_of(g)]. Throws UsageError if a species has no mobile grain.
 template <class NumberOf>
 GroupedGrains regrouped(const TrajectoryReader& run, const std::vector<std::string>& names,
                         const NumberOf& number_of)
@@ -178,18 +178,18 @@ std::vector<std::string> names_of(const SpeciesList& species)
 void GroupingOptions::add_to(po::options_description& options)
 {
   options.add_options()("group", po::value(&groups)->composing()->value_name("NAME=LIST"),
-                        "take species together: LIST holds numbers (from 1) or names of the run's "
-                        "species; every one must be in one group");
+                        "treat several species as one, called NAME: LIST has their numbers (from "
+                        "1) or names, e.g. L=2,3; each species of the run must be in one group");
   options.add_options()("classes", po::value(&classes)->value_name("N"),
-                        "take N classes of sizes, of equal volumes of grains, as species");
+                        "divide the grains by diameter into N species of equal volume");
   options.add_options()("edges", po::value(&edges)->value_name("LENGTH,..."),
-                        "take classes of sizes between these diameters as species");
+                        "divide the grains into species at these diameters, e.g. 2mm,3mm");
 }
 
 GroupedGrains group_grains(const TrajectoryReader& run, const GroupingOptions& options)
 {
   const int given = !options.groups.empty() + (options.classes != 0) + !options.edges.empty();
-  if (given > 1) throw UsageError("--group, --classes and --edges exclude each other");
+  if (given > 1) throw UsageError("--group, --classes and --edges exclude each other; choose one");
   const auto& grains = run.grains();
   if (!options.groups.empty()) {
     const auto groups = parse_groups(run.species(), options.groups);

@@ -13,16 +13,16 @@
 
 namespace grseg {
 
-/// Does work(k) for k = 0 .. count-1 on several threads, and take(result) with each result in the
-/// order of k, one at a time, so that any number of threads gives the same bytes. No more results
-/// exist at a time than there are threads. What is thrown for the least k comes out of it, as if
-/// all had been done one after the other.
+/// Calls work(k) for k = 0 .. count-1 on several threads, and take(result) with each result in the
+/// order of k, one at a time. So the outcome does not depend on the number of threads. At any time
+/// there are at most as many results as threads. The exception of the least k is thrown, as if all
+/// calls were made one after the other.
 template <class Work, class Take>
 void in_order(int threads, std::size_t count, const Work& work, const Take& take)
 {
   std::mutex turn;
   std::condition_variable taken;
-  std::size_t next = 0, done = 0;  // to be worked on, to be taken
+  std::size_t next = 0, done = 0;  // the next k for `work`, and the next k for `take`
   std::exception_ptr trouble;
   const auto worker = [&] {
     std::unique_lock lock(turn);
@@ -49,7 +49,7 @@ void in_order(int threads, std::size_t count, const Work& work, const Take& take
     }
   };
   {
-    // Waiting sleeps; the threads of OpenMP would spin and take the processor from those who work.
+    // These threads sleep when they wait. OpenMP's would spin and slow the working threads down.
     std::vector<std::jthread> others(
         std::min(static_cast<std::size_t>(threads), std::max<std::size_t>(count, 1)) - 1);
     for (auto& other : others) other = std::jthread(worker);

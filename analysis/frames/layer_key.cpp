@@ -26,7 +26,7 @@ bool HeightRange::holds(double bottom, double top) const
 
 namespace {
 
-constexpr double margin = 4;  // small diameters
+constexpr double margin = 4;  // of `inside` from base and surface, in small diameters
 
 HeightRange between(const std::string& text, LengthUnits units)
 {
@@ -47,7 +47,7 @@ HeightRange inside_of(const std::vector<LayerSolid>& layers, double small_diamet
   struct Mean {
     double top = 0, frames = 0, solid = 0;
   };
-  std::map<double, Mean> means;  // by bottom
+  std::map<double, Mean> means;  // by the layer's bottom, m
   for (const auto& layer : layers) {
     if (!(layer.frames > 0)) continue;
     auto& mean = means[layer.bottom];
@@ -134,16 +134,16 @@ void RowFilter::add_layers_to(po::options_description& options, const std::strin
 {
   options.add_options()("heights",
                         po::value(&heights)->value_name("y0:y1")->default_value(inside_the_bed),
-                        fmt::format("{}layers that take part: {}", when, heights_help).c_str());
+                        fmt::format("{}layers to use: {}", when, heights_help).c_str());
   options.add_options()(
       "min-solid", po::value(&min_solid)->default_value(0.5, "0.5")->value_name("X"),
-      (when + "leave out layers whose solid fraction is less than X times the median").c_str());
+      (when + "leave out layers with a solid fraction below X times the median of layers").c_str());
 }
 
 void RowFilter::check() const
 {
   if (std::isnan(begin) || std::isnan(end))
-    throw UsageError("--begin and --end are times in seconds");
+    throw UsageError("--begin and --end must be times in seconds");
   if (!(min_solid >= 0)) throw UsageError("--min-solid must not be negative");
   check_heights(heights);
 }
@@ -186,13 +186,13 @@ void require_sense(const Table& table, std::size_t row, const LayerKey& key)
         fmt::format("a volume V of {} m^{}", format_number(key.volume), dimension_of(table)));
 }
 
-/// An interval and the row that it stands in.
+/// An interval of time (s) or height (m), and the row that contains it.
 struct Piece {
   double begin, end;
   std::size_t row;
 };
 
-/// FormatError where intervals that are not the same overlap, beyond round-off.
+/// Throws FormatError if two intervals overlap by more than round-off.
 void refuse_overlaps(const Table& table, std::vector<Piece> pieces, const char* what)
 {
   std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
@@ -200,7 +200,7 @@ void refuse_overlaps(const Table& table, std::vector<Piece> pieces, const char* 
   });
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     const auto &a = pieces[k - 1], &b = pieces[k];
-    constexpr double round_off = 1e-6;  // of their length: tables may be kept with fewer digits
+    constexpr double round_off = 1e-6;  // relative to the lengths: tables may have few digits
     if (b.begin < a.end - round_off * std::min(a.end - a.begin, b.end - b.begin))
       throw FormatError(fmt::format("{}: the {} of rows {} and {} overlap", table.name, what,
                                     std::min(a.row, b.row) + 1, std::max(a.row, b.row) + 1));
@@ -211,8 +211,8 @@ using Span = std::pair<double, double>;
 
 void refuse_overlapping_rows(const Table& table, const std::vector<LayerKey>& keys)
 {
-  std::map<Span, std::map<Span, std::size_t>> layers_of;  // of each window, with their rows
-  std::map<Span, std::size_t> bed_of;
+  std::map<Span, std::map<Span, std::size_t>> layers_of;  // rows by window, then by layer
+  std::map<Span, std::size_t> bed_of;                     // row of the whole bed, by window
   std::vector<Piece> windows;
   for (std::size_t row = 0; row < keys.size(); ++row) {
     const auto& key = keys[row];
@@ -272,7 +272,7 @@ void refuse_map(const Table& table)
   const auto bins = header_or(table, "bins", "");
   if (find_choice(bins.substr(0, bins.find(' ')), map_planes))
     throw FormatError(fmt::format(
-        "{}: a map (bins: {}), whose rows are cells, not layers; make the table without --bins",
+        "{}: the table is a map (bins: {}) with rows of cells, not layers; make it without --bins",
         table.name, bins));
 }
 
@@ -289,7 +289,7 @@ std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& rem
   for (std::size_t row = 0; row < keys.size(); ++row) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto value = key_columns[c].value;
-      // NaN heights: the whole bed, which has no volume where its top lies below y = 0.
+      // Rows of the whole bed have NaN heights, and no volume if its top lies below y = 0.
       const bool may_be_nan = value == &LayerKey::bottom || value == &LayerKey::top ||
                               (value == &LayerKey::volume && std::isnan(keys[row].bottom));
       keys[row].*value =

@@ -14,56 +14,58 @@
 #include <string>
 #include <vector>
 
-/// Reading tables by layer and window, and refusing tables that cannot be true.
+/// Functions that read tables by layer and window, and refuse tables that cannot be right.
 
 namespace grseg {
 
-/// The heights, m, between which layers must lie to take part: the option --heights.
+/// Range of heights, m, of the layers that an analysis uses: the option --heights.
 struct HeightRange {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
 
-  /// True where a layer from `bottom` to `top` lies in the range, within rounding, and for the
+  /// True if a layer from `bottom` to `top` lies in the range, up to rounding. Always true for the
   /// whole bed, whose bottom and top are NaN.
   bool holds(double bottom, double top) const;
 };
 
-/// A layer in one window, or in the mean of several.
+/// A layer in one window, or averaged over several.
 struct LayerSolid {
-  double bottom = 0, top = 0;  // m
-  double frames = 0;           // its weight
-  double solid = 0;            // area, volume or mass of its grains over its own
+  double bottom = 0, top = 0;  // heights of the layer's edges, m
+  double frames = 0;           // number of frames, the weight of the layer
+  double solid = 0;            // area, volume or mass of the grains over the layer's volume
 };
 
-/// The median solid fraction of the layers that are not empty; 0 where there are none.
+/// The median solid fraction of the layers that are not empty; 0 if all are empty.
 double median_solid(const std::vector<LayerSolid>& layers);
 
-/// The word, which is the default of every tool that puts layers together.
+/// Default value of --heights in every tool that combines layers.
 inline constexpr const char* inside_the_bed = "inside";
-/// For --help: what the option may be.
+/// Values of --heights, for --help.
 inline constexpr const char* heights_help =
     "inside (without 4 dS at the base and 4 dS under the surface), all, or y0:y1, e.g. 4dS:56dS or "
     "4dS: (dS, dL: diameters of small and large grains)";
-/// A choice of --heights in words for the header of a table.
+/// Description of a value of --heights for the header of a table.
 std::string heights_in_words(const std::string& text);
 
-/// UsageError where the text is no such choice.
+/// Throws UsageError if the text is not a value of --heights.
 void check_heights(const std::string& text);
 
-/// The range that --heights means for a bed of these layers. "inside": from 4 d_S above its lowest
-/// layer to 4 d_S below its surface, where it would end if it were as solid everywhere as its
-/// median layer; the lowest layer has in the mean at least half of that. A large grain at a base
-/// touches fixed ones alone, and at the surface few grains fall on each other: what is shared there
-/// is not what the bed shares.
+/// The range of heights that a value of --heights selects in a bed of these layers. "inside" is the
+/// range from 4 d_S above the base to 4 d_S below the surface. The base is the bottom of the lowest
+/// layer with at least half the median solid fraction, averaged over windows. The surface is the
+/// top of a bed with the same grains and the median solid fraction everywhere. "inside" leaves out
+/// the base, because a large grain there touches only fixed grains, and the surface, because few
+/// grains collide there: their stress is not shared as in the bed.
 HeightRange parse_heights(const std::string& text, LengthUnits units,
                           const std::vector<LayerSolid>& layers);
 
-/// First columns of every row by layer and window, on which rows of different tools join.
+/// First columns of every row of a table by layer and window. Tables of different tools are joined
+/// on them.
 struct LayerKey {
-  double begin = 0, end = 0;   // s, of the window
-  double bottom = 0, top = 0;  // m, of the layer; NaN: the whole bed
-  double frames = 0;
-  double volume = 0;  // m^2 or m^3, voids included
+  double begin = 0, end = 0;   // times of the window, s
+  double bottom = 0, top = 0;  // heights of the layer's edges, m; NaN: the whole bed
+  double frames = 0;           // number of frames in the window
+  double volume = 0;           // volume of the layer with its voids, m^2 or m^3
 };
 
 struct KeyColumn {
@@ -71,10 +73,10 @@ struct KeyColumn {
   const char* unit;
   double LayerKey::*value;
 
-  /// In 2 or 3 dimensions.
+  /// Name of the column with its unit, for 2 or 3 dimensions.
   std::string name_with_unit(int dimension) const;
 };
-/// The first columns of every such table.
+/// The columns of LayerKey in the order of tables.
 inline constexpr std::array<KeyColumn, 6> key_columns{{{"t0", "[s]", &LayerKey::begin},
                                                        {"t1", "[s]", &LayerKey::end},
                                                        {"y0", "[m]", &LayerKey::bottom},
@@ -83,15 +85,15 @@ inline constexpr std::array<KeyColumn, 6> key_columns{{{"t0", "[s]", &LayerKey::
                                                        {"V", "[m^D]", &LayerKey::volume}}};
 inline constexpr const KeyColumn& volume_column = key_columns.back();
 
-/// "[m^2]" or "[m^3]".
+/// "[m^2]" in two dimensions, "[m^3]" in three.
 const char* unit_of_volume(int dimension);
-/// Names with units, followed by `more`.
+/// Names of the key columns with units, followed by `more`.
 std::vector<std::string> with_key_columns(int dimension, const std::vector<std::string>& more);
-/// A row: the key, followed by `more`.
+/// Numbers of a row: the key, followed by `more`.
 std::vector<double> with_key(const LayerKey& key, const std::vector<double>& more);
 
-/// Rows of one bed that take part: windows between two times (s) and layers between two heights
-/// (m), up to round-off. The whole bed lies between any heights.
+/// Rows of one bed that an analysis uses: windows between two times (s) and layers between two
+/// heights (m), up to round-off. Rows of the whole bed are in every range of heights.
 struct RowRange {
   double begin = -std::numeric_limits<double>::infinity();
   double end = std::numeric_limits<double>::infinity();
@@ -102,59 +104,58 @@ struct RowRange {
   bool holds_layer(const LayerKey& key) const { return heights.holds(key.bottom, key.top); }
 };
 
-/// Rows that take part, as on the command line of a tool that reads or makes tables.
+/// Options of a tool that select the rows of tables to use.
 struct RowFilter {
-  double begin = -std::numeric_limits<double>::infinity();  // s
-  double end = std::numeric_limits<double>::infinity();
-  std::string heights = "all";
+  double begin = -std::numeric_limits<double>::infinity();  // earliest time of a window, s
+  double end = std::numeric_limits<double>::infinity();     // latest time of a window, s
+  std::string heights = "all";                              // value of --heights
   double min_solid = 0.5;  // least solid fraction of a layer over the median of its bed
 
   /// Adds --begin and --end.
   void add_times_to(po::options_description& options);
-  /// Adds --heights, by default `inside`, and --min-solid; `when` begins their help.
+  /// Adds --heights, by default `inside`, and --min-solid. Their help text begins with `when`.
   void add_layers_to(po::options_description& options, const std::string& when = "");
-  /// UsageError where a value has no meaning.
+  /// Throws UsageError if a value is invalid.
   void check() const;
   /// Header lines "heights" and "min_solid".
   Header lines() const;
-  /// The range of a bed of these layers.
+  /// The rows to use of a bed that has these layers.
   RowRange range(LengthUnits units, const std::vector<LayerSolid>& layers) const;
 };
 
-/// 2, or the number in the line "dimension". FormatError where that is not 3.
+/// Dimension of the run of a table: its header line "dimension", or 2 without this line. Throws
+/// FormatError for any other number than 2 or 3.
 int dimension_of(const Table& table);
-/// The mobile species that a table is about: from its line "species", or small and large with the
-/// diameters of the header. FormatError where that line cannot be read.
+/// The mobile species of a table: its header line "species", or else small and large with the
+/// diameters in the header. Throws FormatError if the line cannot be read.
 SpeciesList species_of(const Table& table);
 
-/// The first lines of a table that a tool makes of others (provenance.hpp): program, preset where
-/// the tool has them, history of all with `command` as its last line, inputs, and what was
-/// verified.
+/// First header lines of a table that a tool makes from other tables (provenance.hpp): program,
+/// preset if the tool has presets, histories of all tables, `command`, inputs, and verification.
 Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
                      const std::string& preset, const std::string& command);
-/// FormatError where a table is a map, whose rows are not of layers.
+/// Throws FormatError if a table is a map, which has rows of cells.
 void refuse_map(const Table& table);
 
-/// The keys of all rows. FormatError for a map, and, adding `remedy`, where a column is missing;
-/// and, naming the rows, where a time, number of frames or volume has no meaning (a bed of NaN
-/// heights may be empty), where two rows are of the same layer in the same window, and where
-/// windows or the layers of a window overlap; also where a length or time in the header is not
-/// positive.
+/// The keys of all rows. Throws FormatError if the table is a map, if a column is missing (the
+/// message ends with `remedy`), or if a length or time in the header is not positive. Also, with
+/// the numbers of the rows, if a time, number of frames or volume is impossible (the whole bed may
+/// be empty), if a layer is repeated in a window, or if windows or layers overlap.
 std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy);
 
-/// Column number of `name`, which is given with its unit as grseg writes it, "V[m^2]". FormatError
-/// that adds `remedy` ("make it with ...") where there is none, and one that names both where its
-/// unit is another; only tables made by hand may leave units out.
+/// Column number of `name`, which includes the unit as grseg writes it, "V[m^2]". Throws
+/// FormatError if the column is missing (the message ends with `remedy`, "make it with ...") or has
+/// another unit. Only tables made by hand may leave units out.
 std::size_t find_column(const Table& table, const std::string& name, const std::string& remedy);
-/// Nothing where the table's line "not kept" says that the column was left out.
+/// find_column(), or nothing if the table's header line "not kept" names the column.
 std::optional<std::size_t> find_kept_column(const Table& table, const std::string& name,
                                             const std::string& remedy);
-/// The name among `written` that is `name` with a unit.
+/// The element of `written` that is `name` followed by a unit.
 const std::string& with_unit(const std::string& name, const std::vector<std::string>& written);
 
-/// A cell that must be a finite number; FormatError naming row and column where it is not.
+/// Number in a cell. Throws FormatError, with row and column, unless it is finite.
 double finite_cell(const Table& table, std::size_t row, std::size_t column);
-/// Also where it is less than 0 by more than `round_off`.
+/// finite_cell(), which also throws if the number is less than -round_off.
 double non_negative_cell(const Table& table, std::size_t row, std::size_t column,
                          double round_off = 0);
 

@@ -29,10 +29,10 @@ double disc_area_within(double radius, double distance, double limit)
   if (distance >= radius + limit) return 0;
   if (distance <= std::abs(radius - limit)) return std::numbers::pi * smaller * smaller;
   const double disc = radius * radius, circle = limit * limit, square = distance * distance;
-  // Four times the triangle of the centres and a point where the circles meet (Heron).
+  // Four times the area of the triangle of both centres and a point of intersection (Heron).
   const double triangle = std::sqrt((radius + limit - distance) * (distance + radius - limit) *
                                     (distance - radius + limit) * (distance + radius + limit));
-  // An arc cosine would lose the small angle of a large circle.
+  // atan2, because an arc cosine would lose digits of the small angle of a large circle.
   return disc * std::atan2(triangle, square + disc - circle) +
          circle * std::atan2(triangle, square + circle - disc) - triangle / 2;
 }
@@ -47,11 +47,11 @@ Layers::Layers(double thickness, double length, std::optional<double> width, Kin
     : thickness_(thickness), length_(length), width_(width), kind_(std::move(kind))
 {
   if (!(thickness > 0) || !std::isfinite(thickness))
-    throw UsageError(fmt::format("a layer of {:g} m has no thickness; give e.g. 4dS", thickness));
+    throw UsageError(fmt::format("a layer cannot be {:g} m thick; give e.g. 4dS", thickness));
   if (!(length > 0) || !std::isfinite(length))
-    throw UsageError(fmt::format("a cell of {:g} m has no length", length));
+    throw UsageError(fmt::format("the length of the cell, {:g} m, must be positive", length));
   if (width && (!(*width > 0) || !std::isfinite(*width)))
-    throw UsageError(fmt::format("a cell of {:g} m has no width", *width));
+    throw UsageError(fmt::format("the width of the cell, {:g} m, must be positive", *width));
 }
 
 Layers Layers::annuli(double thickness, double length, const Vec2& axis,
@@ -106,8 +106,8 @@ std::size_t Layers::count(const Grains& grains, const Frame<D>& frame) const
       highest = std::max(highest, height<D>(frame.position[g]) + grains.radius[g]);
   if (!(highest < most_layers * thickness_))
     throw RunError(
-        fmt::format("at t = {:.6g} s a grain is {:.3g} m {}, more than {:g} layers; is "
-                    "it lost, or are the layers too thin?",
+        fmt::format("at t = {:.6g} s a grain is {:.3g} m {}, more than {:g} layers; either "
+                    "the grain is lost, or the layers are too thin",
                     frame.time, highest, axis() ? "from the axis" : "above the base", most_layers));
   const std::size_t n = at(highest);
   return highest > bottom(n) ? n + 1 : std::max<std::size_t>(n, 1);

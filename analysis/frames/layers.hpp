@@ -11,68 +11,69 @@
 
 namespace grseg {
 
-/// Area (m^2) of the part of a disc that lies below a line `height` (m) above its centre; exact,
-/// 0 below the disc and pi r^2 above it.
+/// Area (m^2) of the part of a disc that lies below a line `height` (m) above its centre. Exactly 0
+/// for a line below the disc, and pi r^2 for one above the disc.
 double disc_area_below(double radius, double height);
 
-/// Area (m^2) of the part of a disc that lies within a circle of radius `limit` (m) whose centre is
-/// `distance` (m) from the disc's: two circular segments.
+/// Area (m^2) of the intersection of a disc and a circle of radius `limit` (m) whose centres are
+/// `distance` (m) apart. It consists of two circular segments.
 double disc_area_within(double radius, double distance, double limit);
 
 /// Volume (m^3) of the part of a sphere that lies below a plane `height` (m) above its centre.
 double sphere_volume_below(double radius, double height);
 
-/// Layers parallel to the base: layer n is [n h, (n+1) h), of volume V = Lx h in two dimensions and
-/// Lx Lz h in three. The first also takes all that is below y = 0, and the last all that is above
-/// it. There are as many as the highest mobile grain reaches; the last one keeps its full thickness
-/// and volume.
+/// Layers, annuli or cells of a map over which quantities are summed.
 ///
-/// Or annuli about an axis along z, as a drum asks for: y is then the distance from the axis,
-/// outward, and x goes round it clockwise, so that (x, y) is right-handed as over a base. Annulus n
-/// is [n h, (n+1) h), of volume pi h^2 (2 n + 1), in three dimensions times Lz.
+/// Layer n parallel to the base is [n h, (n+1) h), of volume V = Lx h in two dimensions and Lx Lz h
+/// in three. The last layer contains the top of the highest mobile grain; its volume is V. The
+/// first layer also includes everything below y = 0, and the last layer everything above it.
 ///
-/// Or the cells of a map (map_grid.hpp), for what counts at one place, whole: a layer is then a
-/// cell, and y is what is across it. Nothing is shared between cells.
+/// Annuli, as for a drum, lie about an axis along z: y is then the distance from the axis, and x
+/// runs clockwise round it, so that (x, y) is right-handed as over a base. Annulus n is [n h, (n+1)
+/// h), of volume pi h^2 (2 n + 1), in three dimensions times Lz.
+///
+/// In a map (map_grid.hpp) a "layer" is a cell, and y is the coordinate across it. A grain or
+/// contact belongs to one cell as a whole.
 class Layers {
  public:
-  /// Thickness h, and length Lx and, in three dimensions, width Lz of the cell, m. UsageError
-  /// unless they are positive.
+  /// Thickness h of layers, and length Lx and (in three dimensions) width Lz of the periodic cell,
+  /// m. Throws UsageError unless they are positive.
   Layers(double thickness, double length, std::optional<double> width = std::nullopt)
       : Layers(thickness, length, width, Parallel{})
   {
   }
-  /// `axis`: its x and y.
+  /// Annuli about an axis along z; `axis` has its x and y, m.
   static Layers annuli(double thickness, double length, const Vec2& axis,
                        std::optional<double> width = std::nullopt);
   static Layers map(const MapGrid& cells, double length, std::optional<double> width);
-  /// These layers with another thickness; not for a map.
+  /// Copy of these layers with another thickness; not for a map.
   Layers with_thickness(double thickness) const;
 
-  /// x and y of the axis of annuli and of a map in the plane rz; else null.
+  /// x and y of the axis of annuli or of a map rz, m; null for others.
   const Vec2* axis() const;
-  /// The cells of a map; else null.
+  /// The cells of a map; null for layers and annuli.
   const MapGrid* map() const { return std::get_if<MapGrid>(&kind_); }
   double thickness() const { return thickness_; }
-  double volume(std::size_t layer) const;                        // m^2 or m^3
-  double length() const { return length_; }                      // m
-  const std::optional<double>& width() const { return width_; }  // m, in three dimensions
-  /// Volume of the cell over a height, m^2 or m^3.
+  double volume(std::size_t layer) const;                        // volume of a layer, m^2 or m^3
+  double length() const { return length_; }                      // Lx, m
+  const std::optional<double>& width() const { return width_; }  // Lz, m; only in three dimensions
+  /// Volume of a bed of this height, m^2 or m^3.
   double volume_of_bed(double height) const { return length_ * width_.value_or(1) * height; }
-  // Multiplying, not adding up: edges are the same in every tool and stay exact.
+  // Edges are products, not sums, so that they are exact and the same in every tool.
   double bottom(std::size_t layer) const { return static_cast<double>(layer) * thickness_; }
   double top(std::size_t layer) const { return bottom(layer + 1); }
 
-  /// y of a position, m.
+  /// Coordinate y of a position, m: the height, or the distance from the axis.
   template <int D>
   double height(const Vector<D>& position) const
   {
     const Vec2* about = axis();
     return about ? Vec2(position.template head<2>() - *about).norm() : position.y();
   }
-  /// Components along and across the layer of a vector at `position`; that along z stays.
+  /// Components along and across the layer of a vector at `position`. Its z component is unchanged.
   template <int D>
   Vector<D> turned(const Vector<D>& vector, const Vector<D>& position) const;
-  /// Components of a spin along and across the layer: in two dimensions its number stays.
+  /// Components along and across the layer of a spin at `position`; unchanged in two dimensions.
   template <int D>
   Spin<D> turned_spin(const Spin<D>& spin, const Vector<D>& position) const
   {
@@ -82,9 +83,9 @@ class Layers {
       return turned<D>(spin, position);
   }
 
-  /// The layer that holds the height y, m; not of a map.
+  /// Number of the layer that contains the height y, m; not for a map.
   std::size_t at(double y) const;
-  /// The layer or cell that holds a position at height y.
+  /// Number of the layer or cell that contains a position at height y.
   template <int D>
   std::size_t holding(const Vector<D>& position, double y) const
   {
@@ -92,25 +93,25 @@ class Layers {
       return cells->at<D>(position);
     return at(y);
   }
-  /// Height over the bottom of a layer or cell, m.
+  /// Height of y above the bottom of a layer or cell, m.
   double above_bottom(double y, std::size_t layer) const
   {
     const auto* cells = map();
     return y - (cells ? cells->bottom(layer) : bottom(layer));
   }
-  /// Layers up to the top of the highest mobile grain, at least 1. RunError where that would be
-  /// more than a bed can have, which means that a grain is lost. Of a map all cells.
+  /// Number of layers up to the top of the highest mobile grain, at least 1; number of cells of a
+  /// map. Throws RunError above 100,000 layers, which means that a grain is lost.
   template <int D>
   std::size_t count(const Grains& grains, const Frame<D>& frame) const;
 
-  /// Calls book(layer, share) with the shares of its length that a straight segment between two
-  /// heights has in each of `count` layers; the shares add up to 1. Not of annuli or maps.
+  /// Divides a straight segment between two heights among `count` layers: calls book(layer, share)
+  /// with the share of its length in each layer. The shares add up to 1. Not for annuli or maps.
   template <class Book>
   void share_segment(double from, double to, std::size_t count, const Book& book) const;
 
-  /// Calls book(layer, part) with the areas (m^2) of a disc or volumes (m^3) of a sphere at height
-  /// y that lie in each of `count` layers; they add up to the grain's area or volume. Not for
-  /// spheres in annuli, nor for maps.
+  /// Divides a disc or sphere at height y among `count` layers: calls book(layer, part) with its
+  /// area (m^2) or volume (m^3) in each layer. The parts add up to the area or volume of the grain.
+  /// Not for spheres in annuli, nor for maps.
   template <int D, class Book>
   void share_grain(double y, double radius, std::size_t count, const Book& book) const;
 
@@ -149,7 +150,7 @@ inline std::size_t Layers::at(double y) const
 {
   if (!(y >= thickness_)) return 0;
   auto n = static_cast<std::size_t>(y / thickness_);
-  // The quotient may be rounded to the wrong side of an edge.
+  // Rounding may move the quotient across an edge.
   if (y < bottom(n)) --n;
   if (y >= top(n)) ++n;
   return n;

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double most_cells = 1e6;
 
-/// Number of the cell of this side that holds a place, counted from 0.
+/// Number of the cell that contains `place` (m), with cells of this side (m) that begin at 0.
 double cell_of(double place, double side)
 {
   double cell = std::floor(place / side);
-  // The quotient may be rounded to the wrong side of an edge.
+  // Rounding may move the quotient across an edge.
   if (place < cell * side) --cell;
   if (place >= (cell + 1) * side) ++cell;
   return cell;
@@ -49,7 +49,7 @@ MapAxis periodic_axis(char name, double side, double period)
 MapAxis open_axis(char name, double side, double low, double high)
 {
   const double first = cell_of(low, side), last = cell_of(high, side);
-  // A grain that ends at an edge does not reach into the cell behind it.
+  // A grain that ends at the edge of a cell does not reach into the next cell.
   const double cells = last - first + (high > last * side ? 1 : 0);
   return {name, side, first, whole(cells), false};
 }
@@ -133,15 +133,15 @@ MapGrid map_grid(MapPlane plane, double side, const Box& box, const GrainExtent<
   const double cells = static_cast<double>(first.cells) * static_cast<double>(second.cells);
   if (!(cells <= most_cells))
     throw RunError(
-        fmt::format("grains reach over {} by {} cells of {:.3g} m, more than {:g} in all; is one "
-                    "lost, or are the cells too small? Their side is --layer",
+        fmt::format("the grains need {} by {} cells of {:.3g} m, more than {:g} in all; either a "
+                    "grain is lost, or the cells are too small: choose a larger --layer",
                     first.cells, second.cells, side, most_cells));
   double depth = D == 3 && plane == MapPlane::xy ? box.length_z : 1;
   if (plane == MapPlane::xz) depth = grains.bed_height();
   if (!(depth > 0))
     throw RunError(
-        "--bins xz sums over the height of the bed, but the grains' mean height lies below y = 0; "
-        "take xy or rz");
+        "--bins xz sums over the height of the bed, but the grains' mean height is below y = 0; "
+        "use xy or rz");
   return {plane, {first, second}, depth, axis};
 }
 

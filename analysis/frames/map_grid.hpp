@@ -10,41 +10,41 @@
 
 namespace grseg {
 
-/// Which two coordinates a map lies in. What is not among them is summed over.
+/// The two coordinates of a map. Quantities are summed over the third one.
 enum class MapPlane {
-  xy,  ///< in three dimensions over the width Lz
-  xz,  ///< over the height of the bed
-  rz,  ///< all round an axis along z, r being the distance from it
+  xy,  ///< in three dimensions, summed over the width Lz
+  xz,  ///< summed over the height of the bed
+  rz,  ///< summed over the angle about an axis along z; r is the distance from the axis
 };
 inline constexpr Choice<MapPlane> map_planes[] = {
     {"xy", MapPlane::xy}, {"xz", MapPlane::xz}, {"rz", MapPlane::rz}};
 
-/// Cells of equal side along one coordinate. The first begins at first * side; a cell holds its
-/// lower edge. Along a period what lies beyond an end comes in at the other; elsewhere it counts to
-/// the outermost cell.
+/// Cells of equal side along one coordinate. The first cell begins at first * side. A cell includes
+/// its lower edge. A coordinate beyond the last cell is wrapped if the axis is periodic; otherwise
+/// it belongs to the outermost cell.
 struct MapAxis {
-  char name = 'x';
-  double side = 0;   // m
-  double first = 0;  // a whole number
-  std::size_t cells = 1;
+  char name = 'x';        // coordinate: x, y, z or r
+  double side = 0;        // side of a cell, m
+  double first = 0;       // begin of the first cell in units of `side`, a whole number
+  std::size_t cells = 1;  // number of cells
   bool periodic = false;
 
-  // Multiplying, not adding up: edges stay exact.
+  // Lower edge of a cell, m: a product, not a sum, so that it is exact.
   double edge(std::size_t cell) const { return (first + static_cast<double>(cell)) * side; }
+  // Number of the cell that contains a coordinate (m).
   std::size_t at(double place) const;
 };
 
-/// As many cells as fill the period, none longer than `side`.
+/// Equal cells that fill the period (m), none longer than `side` (m).
 MapAxis periodic_axis(char name, double side, double period);
-/// Cells of this side, with edges at its multiples, from the one that holds `low` to the one that
-/// holds `high`.
+/// Cells of this side (m), with edges at its multiples, that cover the range from `low` to `high`.
 MapAxis open_axis(char name, double side, double low, double high);
 
-/// How far the mobile grains reach, and how high the bed is, over the frames that were added.
+/// Range of the mobile grains and mean height of the bed over the frames that were added.
 template <int D>
 class GrainExtent {
  public:
-  /// `axis`: x and y of the one that distances are measured from.
+  /// `axis`: x and y of the axis from which distances are measured, m.
   explicit GrainExtent(const std::optional<Vec2>& axis) : axis_(axis) {}
 
   void add(const Grains& grains, const Frame<D>& frame);
@@ -53,7 +53,7 @@ class GrainExtent {
   bool empty() const { return !(low_[0] <= high_[0]); }
   const Vector<D>& low() const { return low_; }
   const Vector<D>& high() const { return high_; }
-  double distance() const { return distance_; }  // from the axis
+  double distance() const { return distance_; }  // largest distance from the axis, m
   /// Twice the mean height of the grains' area or volume above y = 0.
   double bed_height() const { return heights_ / static_cast<double>(frames_); }
 
@@ -68,26 +68,26 @@ class GrainExtent {
 struct MapGrid {
   MapPlane plane;
   std::array<MapAxis, 2> axes;
-  double depth;                   // m, the length that is summed over; in the plane rz none
-  std::optional<Vec2> axis = {};  // x and y of the axis of rz
+  double depth;                   // length that is summed over, m; 1 in rz and in two dimensions
+  std::optional<Vec2> axis = {};  // x and y of the axis of a map rz, m
 
   std::size_t cells() const { return axes[0].cells * axes[1].cells; }
   std::size_t column(std::size_t cell) const { return cell % axes[0].cells; }
   std::size_t row(std::size_t cell) const { return cell / axes[0].cells; }
-  double volume(std::size_t cell) const;  // m^2 or m^3
+  double volume(std::size_t cell) const;  // volume of a cell, m^2 or m^3
 
-  /// The cell that holds a position.
+  /// Number of the cell that contains a position.
   template <int D>
   std::size_t at(const Vector<D>& position) const;
 
-  /// Thickness of a cell across its layer: along y, in rz along r, in xz all of the height.
+  /// Thickness of a cell, m: along y in the plane xy, along r in rz; in xz the height of the bed.
   double thickness() const;
-  /// Where it begins there.
+  /// Lower edge of a cell in this direction, m.
   double bottom(std::size_t cell) const;
 };
 
-/// The cells of a map that hold all grains of a run, of sides no longer than `side` (m). RunError
-/// where there is no grain, or more cells than a map can have, which means that a grain is lost.
+/// The cells of a map that cover all grains of a run, of sides no longer than `side` (m). Throws
+/// RunError if there is no grain, or above a million cells, which means that a grain is lost.
 template <int D>
 MapGrid map_grid(MapPlane plane, double side, const Box& box, const GrainExtent<D>& grains,
                  const std::optional<Vec2>& axis);

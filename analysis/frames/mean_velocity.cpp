@@ -57,7 +57,7 @@ void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
   }
 }
 
-/// Adds a grain, or takes it away with the sign -1.
+/// Adds a grain (sign 1), or subtracts it (sign -1).
 template <int D>
 typename MeanVelocity<D>::BinSum& MeanVelocity<D>::BinSum::add(double sign, double y, double mass,
                                                                const Motion<D>& own)
@@ -75,14 +75,14 @@ typename MeanVelocity<D>::BinSum& MeanVelocity<D>::BinSum::add(double sign, doub
   return *this;
 }
 
-/// The mean, and the covariance of the mean from the scatter about a line with this slope.
+/// The mean motion of the bin, and its covariance from deviations from a line with this slope.
 template <int D>
 MotionOfOthers<D> MeanVelocity<D>::BinSum::mean(const Motion<D>& slope) const
 {
   const Motion<D> mean = velocity();
   const double y = height();
   const double pairs = motion.mass * motion.mass - squares;  // sum of m_j m_k, j != k
-  // With d = y - its mean: sum m^2 d, m^2 d^2, m^2 d (v - mean).
+  // Sums of m^2 d, m^2 d^2 and m^2 d (v - mean), with d = y - mean height.
   const double d = squares_y - y * squares;
   const double dd = squares_yy - y * (2 * squares_y - y * squares);
   const Motion<D> dv = weighted_y - y * weighted - d * mean;
@@ -145,13 +145,13 @@ Motion<D> MeanVelocity<D>::on_profile(double y) const
   };
   const auto above = static_cast<std::size_t>(std::ranges::upper_bound(profile_, y, {}, &Point::y) -
                                               profile_.begin());
-  // Neighbours' mean heights may lie close together, so the slope outside is taken over two bins.
+  // Mean heights of neighbours may be close, so the slope for extrapolation spans two bins.
   if (above == 0) return line(profile_[0], profile_[std::min<std::size_t>(2, n - 1)]);
   if (above == n) return line(profile_[n - 1], profile_[n - std::min<std::size_t>(3, n)]);
   return line(profile_[above - 1], profile_[above]);
 }
 
-/// The slope between the neighbours of a full bin, or between it and the only one.
+/// Slope of the profile at the k-th full bin: between its neighbours, or from it to its only one.
 template <int D>
 Motion<D> MeanVelocity<D>::slope_at(std::size_t k) const
 {
@@ -174,7 +174,7 @@ std::optional<MotionOfOthers<D>> MeanVelocity<D>::on_profile_of_others(
     return bin;
   };
   if (n == 1) return others(0).mean(slope_[0]);
-  // The first point above y.
+  // Index of the first point above y.
   auto above = static_cast<std::size_t>(std::ranges::lower_bound(full_, own) - full_.begin());
   if (above < n && full_[above] == own && others(above).height() <= y) ++above;
   const auto ends = above == 0

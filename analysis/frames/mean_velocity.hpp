@@ -13,15 +13,16 @@
 
 namespace grseg {
 
-/// Mean flow of the mobile grains in one layer, weighted by mass; NaN where there are none.
+/// Mean flow of the mobile grains in one layer, weighted by mass; NaN if there are none.
 struct LayerFlow {
-  double u,
-      v;  // m/s, along and across the layer: down-slope and along y, in annuli round and outward
-  double du_dy;  // 1/s, slope of the least-squares line u(y); NaN for less than two heights. In
-                 // annuli no shear rate: a body that turns as a whole has du_dy = u/y
+  // Velocity along and across the layer, m/s: down-slope and along y; in annuli round and outward.
+  double u, v;
+  double du_dy;  // slope of the least-squares line u(y), 1/s; NaN for less than two heights. In
+                 // annuli it is not the shear rate: a body that rotates rigidly has du_dy = u/y
 };
 
-/// The sums it is made of. Heights are counted from the layer's bottom, so that little cancels.
+/// Sums from which LayerFlow follows: of m, m y, m y^2, m u, m v, m u y, with mass m and y measured
+/// from the layer's bottom, so that little cancels.
 struct LayerFlowSums {
   double mass = 0, my = 0, myy = 0, mu = 0, mv = 0, muy = 0;
 
@@ -30,36 +31,36 @@ struct LayerFlowSums {
   static constexpr auto members =
       std::tuple(&LayerFlowSums::mass, &LayerFlowSums::my, &LayerFlowSums::myy, &LayerFlowSums::mu,
                  &LayerFlowSums::mv, &LayerFlowSums::muy);
-  /// Heights that differ by less than a millionth of `thickness` (m) are the same.
+  /// Heights that differ by less than a millionth of `thickness` (m) count as equal.
   LayerFlow mean(double thickness) const;
 };
 
-/// About which mean velocity fluctuations are counted. The paper does not say.
+/// Mean velocity from which fluctuations are measured. Staron & Phillips (2015) do not say which.
 enum class MeanFlow {
-  profile,  ///< a fine profile over height, over all frames; takes away m_i/M of each grain's
-            ///< fluctuations, M being the mass that a bin of the profile holds over all frames
-  profile_unbiased,  ///< this profile without the grain itself
-  layer,    ///< the layer's mean over all frames; leaves the mean shear inside the layer in K_xx,
-            ///< nu rho (du/dy h)^2/12
-  instant,  ///< the layer's mean in each frame; leaves the same shear, takes away what the whole
-            ///< layer does together and, of n equal grains, 1/n of the fluctuations
-  instant_unbiased,  ///< as instant, without the loss of 1/n: kinetic_stress.hpp
-  species,           ///< the layer's mean of each species over all frames
+  profile,           ///< a fine profile over height, over all frames. Each grain loses m_i/M of its
+                     ///< fluctuation, M being the mass in its bin of the profile, over all frames
+  profile_unbiased,  ///< the profile of all other grains
+  layer,    ///< the layer's mean over all frames. The mean shear in the layer adds nu rho (du/dy
+            ///< h)^2/12 to K_xx
+  instant,  ///< the layer's mean in each frame. K_xx includes the same shear, but no fluctuations
+            ///< of the whole layer; of n equal grains, each loses 1/n of its fluctuation
+  instant_unbiased,  ///< as instant, but without the loss of 1/n (kinetic_stress.hpp)
+  species,           ///< the layer's mean of each species, over all frames
 };
 inline constexpr Choice<MeanFlow> mean_flows[] = {
     {"profile", MeanFlow::profile,
-     "over the window, at the grain's own height, from bins of at most dS/2"},
+     "profile over height in the window, at the height of the grain, from bins of at most dS/2"},
     {"profile-unbiased", MeanFlow::profile_unbiased,
-     "as profile, but from all other grains, and corrected for their scatter: for windows of few "
-     "frames"},
-    {"layer", MeanFlow::layer, "of the layer, over the window"},
-    {"instant", MeanFlow::instant, "of the layer, in each frame"},
+     "as profile, but from all other grains, and corrected for the error of their mean: for "
+     "windows of few frames"},
+    {"layer", MeanFlow::layer, "mean of the layer over the window"},
+    {"instant", MeanFlow::instant, "mean of the layer in each frame"},
     {"instant-unbiased", MeanFlow::instant_unbiased,
-     "as instant, but with each grain compared with pairs of others, so that it is not in its own "
-     "mean"},
-    {"species", MeanFlow::species, "of the species in the layer, over the window"}};
+     "as instant, but each grain is compared with pairs of other grains, so that it is not part of "
+     "the mean"},
+    {"species", MeanFlow::species, "mean of the species in the layer over the window"}};
 
-/// Components of a velocity, m/s, then of a spin, rad/s: 3 or 6 numbers.
+/// Components of a velocity, m/s, followed by components of the spin, rad/s: 3 or 6 numbers.
 template <int D>
 using Motion = Vector<D == 2 ? 3 : 6>;
 template <int D>
@@ -79,8 +80,8 @@ Motion<D> motion_of(const Layers& layers, const Frame<D>& frame, std::size_t g)
                       layers.turned_spin<D>(frame.angular_velocity[g], position));
 }
 
-/// A product of two motions: of the velocities, m^2/s^2, and of the spins, summed over their
-/// components, 1/s^2.
+/// A product of two motions: the tensor of the velocities, m^2/s^2, and the scalar product of the
+/// spins, 1/s^2.
 template <int D>
 struct MotionProduct {
   Tensor<D> velocities = Tensor<D>::Zero();
@@ -92,8 +93,8 @@ struct MotionProduct {
 template <int D>
 MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Motion<D>& b);
 
-/// The mean motion at the place of a grain by others, and the covariance that their fluctuations
-/// give it.
+/// Mean motion at the place of a grain, found from other grains, and the covariance of this mean
+/// due to their fluctuations.
 template <int D>
 struct MotionOfOthers {
   Motion<D> mean;
@@ -101,54 +102,54 @@ struct MotionOfOthers {
 };
 
 /// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile
-/// over height (not of a map), by layer, and by layer and species.
+/// over height (not for a map), by layer, and by layer and species.
 ///
-/// The profile joins, by straight lines, one point per bin of height: mean height and mean motion
-/// of the grains in it. Empty bins have no point, so that the line passes over them; beyond the
-/// outer points it goes on with the slope of the outer two bins. Taking the mean height rather than
-/// the middle of the bin, a linear profile comes out as it is, however the grains lie in their
+/// The profile connects one point per bin of height by straight lines: mean height and mean motion
+/// of the grains in the bin. Empty bins have no point. Beyond the outermost points the profile is
+/// extrapolated linearly, with the slope over the outermost two bins. Points at the mean height,
+/// not the middle of the bin, reproduce a linear profile exactly, wherever grains are in their
 /// bins.
 template <int D>
 class MeanVelocity {
  public:
-  /// Bins no thicker than `bin` (m), a whole number of them per layer.
+  /// The bins are no thicker than `bin` (m), with a whole number of bins per layer.
   MeanVelocity(const Layers& layers, double bin, std::size_t species = 2);
 
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const MeanVelocity& others);
-  /// Takes the means; nothing can be added after that.
+  /// Computes the means; no frame can be added afterwards.
   void finish();
 
-  /// At height y; NaN without grains.
+  /// Mean motion at height y; NaN without grains.
   Motion<D> on_profile(double y) const;
-  /// The profile at a grain that was added, from the others: its bin is left without it, and bins
-  /// with fewer than two others have no point. With a share a_j of V for each other grain, its
-  /// covariance is sum a_j^2 var(v_j), which the scatter within a bin, sum m^2 e (x) e/(M^2 - Q),
-  /// estimates (Q = sum m^2; e: from the line through the bin's mean with the slope between its
-  /// neighbours). Where velocities are independent about one linear profile, (v_i - V) (x) (v_i -
-  /// V) less the covariance then has the variance of v_i, but for terms of the order (m/M)^2.
-  /// Nothing where there is no such point.
+  /// Profile V at a grain i that was added, from all other grains: grain i is removed from its bin,
+  /// and bins of fewer than three grains have no point. V = sum a_j v_j over the other grains, so
+  /// its covariance is sum a_j^2 var(v_j). This is estimated by sum m^2 e (x) e/(M^2 - Q) in a bin
+  /// (M = sum m; Q = sum m^2; e: deviation from the line through the bin's mean with the slope
+  /// between its neighbours). If velocities are independent about one linear profile, the mean of
+  /// (v_i - V) (x) (v_i - V) less the covariance is the variance of v_i, up to terms of the order
+  /// (m/M)^2. Nothing if the profile has no point.
   std::optional<MotionOfOthers<D>> on_profile_of_others(double y, double mass,
                                                         const Motion<D>& motion) const;
-  /// The part of a grain in the mean of its bin, by which the profile makes its fluctuations too
-  /// small: an upper bound, as straight lines mix two points.
+  /// Share of a grain in the mean of its bin, by which `profile` underestimates its fluctuation.
+  /// It is an upper bound, as the straight lines mix two bins.
   double own_part(double y, double mass) const { return mass / of_bin_[bins_.at(y)].motion.mass; }
-  /// Mean motion of a layer, and of one species in it. The layer must hold grains that were added.
+  /// Mean motion of a layer, and of one species in it. The layer must contain grains.
   Motion<D> of_layer(std::size_t layer) const;
   Motion<D> of_species(std::size_t layer, Species species) const;
 
  private:
   struct Sum {
-    double mass = 0;  // kg
-    Motion<D> momentum = Motion<D>::Zero();
+    double mass = 0;                         // total mass, kg
+    Motion<D> momentum = Motion<D>::Zero();  // sum of m v, kg m/s, and of m times the spin
     static constexpr auto members = std::tuple(&Sum::mass, &Sum::momentum);
   };
   static Motion<D> mean(const std::vector<Sum>& of_species);
   struct BinSum {
     Sum motion;
-    double moment = 0;  // kg m
+    double moment = 0;  // sum of m y, kg m
     std::size_t grains = 0;
-    // sum m^2, m^2 y, m^2 y^2, m^2 v, m^2 y v, m^2 v (x) v
+    // Sums of m^2, m^2 y, m^2 y^2, m^2 v, m^2 y v, m^2 v (x) v, with mass m and motion v.
     double squares = 0, squares_y = 0, squares_yy = 0;
     Motion<D> weighted = Motion<D>::Zero(), weighted_y = Motion<D>::Zero();
     MotionProduct<D> product;
@@ -169,11 +170,11 @@ class MeanVelocity {
   Layers layers_, bins_;
   std::vector<BinSum> of_bin_;
   std::size_t species_;
-  std::vector<std::vector<Sum>> of_layer_;  // by species
-  // Once they are taken.
+  std::vector<std::vector<Sum>> of_layer_;  // sums by layer, then by species
+  // Set by finish().
   std::vector<Point> profile_;
-  std::vector<std::size_t> full_;  // bins of three grains or more
-  std::vector<Motion<D>> slope_;   // of the profile through them, at each
+  std::vector<std::size_t> full_;  // numbers of the bins with three grains or more
+  std::vector<Motion<D>> slope_;   // slope of the profile at each of the full bins, 1/s
   std::vector<Motion<D>> mean_of_layer_;
 };
 

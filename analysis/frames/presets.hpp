@@ -3,26 +3,26 @@
 
 #include "formats/cli/tool.hpp"
 
-/// Options that --preset sets in each tool: `paper` as Staron & Phillips (2015) did, as far as they
-/// say so, `rigorous` for results that conclusions rest on. Options given on the command line take
-/// precedence. Defaults that both presets keep are not listed: layers of 4 dS, windows of 1.25 s,
-/// 0.01 <= phi_S/phi_L <= 100.
+/// Options that --preset sets in each tool. `paper`: the choices of Staron & Phillips (2015), as
+/// far as they are known. `rigorous`: choices for results on which conclusions depend. Options
+/// given on the command line take precedence. Defaults that are the same in both presets are not
+/// listed: layers of 4 dS, windows of 1.25 s, 0.01 <= phi_S/phi_L <= 100.
 namespace grseg::presets {
 
-//   option, paper, rigorous; "": the tool's default
+//   option, value in `paper`, value in `rigorous`; "": the tool's default
 inline constexpr PresetOption stress[] = {
-    {"assign", "contact-point", "branch"},     // the branch's share of a layer balances momentum
-    {"partition", "uniform:0.66667", "size"},  // nominal or actual radii
+    {"assign", "contact-point", "branch"},     // only `branch` balances momentum in each layer
+    {"partition", "uniform:0.66667", "size"},  // share from nominal radii, or from actual radii
     {"volume", "solid", "bulk"},
 };
 inline constexpr PresetOption kinetic[] = {
-    {"mean", "layer", "profile-unbiased"},  // the mean of a layer leaves the shear inside it
+    {"mean", "layer", "profile-unbiased"},  // with `layer`, K_xx includes the shear in the layer
 };
 inline constexpr PresetOption micro[] = {
     {"composition", "clipped", "clipped"},
 };
 inline constexpr PresetOption derive[] = {
-    {"force", "modulus", "normal"},  // with f_n, over ends, Pi is the pressure of each species
+    {"force", "modulus", "normal"},  // Pi is the pressure of each species for normal and ends
     {"average", "contacts", "ends"},
     {"partition", "uniform:0.66667", "size"},
 };
@@ -36,7 +36,7 @@ inline constexpr PresetOption segregation[] = {
 };
 inline constexpr PresetOption fit[] = {
     {"partition", "uniform:0.66667", "size"},
-    {"begin", "", "10"},  // s; the paper takes all stages, spin-up takes 5 to 10 s
+    {"begin", "", "10"},  // s; the paper uses all stages; the flow accelerates for 5 to 10 s
 };
 
 }  // namespace grseg::presets

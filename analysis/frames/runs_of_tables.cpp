@@ -24,7 +24,7 @@ bool is_of_key(const std::string& name)
   return std::ranges::any_of(key_columns, [&](const auto& key) { return name == key.name; });
 }
 
-/// Columns that both tables have beside the key, as pairs of their numbers.
+/// Columns that both tables have in addition to the key, as pairs of column numbers (a, b).
 std::vector<std::pair<std::size_t, std::size_t>> common_columns(const Table& a, const Table& b)
 {
   std::vector<std::pair<std::size_t, std::size_t>> columns;
@@ -40,8 +40,7 @@ std::string unit_of(const std::string& column)
   return column.substr(std::min(column.find('['), column.size()));
 }
 
-/// True where both rows agree in the columns of one unit, up to a part of the largest number among
-/// them.
+/// True if both rows agree in these columns of one unit, up to `part` of the largest number.
 bool agree(const std::vector<double>& a, const std::vector<double>& b,
            const std::vector<std::pair<std::size_t, std::size_t>>& columns)
 {
@@ -54,20 +53,20 @@ bool agree(const std::vector<double>& a, const std::vector<double>& b,
   return largest <= part * scale;
 }
 
-/// Within so many seconds times count as equal: tables may be kept with fewer digits.
+/// Difference of times (s) up to which they count as equal, because tables may have few digits.
 double round_off_of(const Span& window)
 {
   return 1e-6 * (window.second - window.first);
 }
 
-/// True where they have more than round-off in common.
+/// True if two windows overlap by more than round-off.
 bool overlap(const Span& a, const Span& b)
 {
   const double common = std::min(a.second, b.second) - std::max(a.first, b.first);
   return common > std::min(round_off_of(a), round_off_of(b));
 }
 
-/// The numbers of the rows of each window of a table.
+/// A table and its row numbers by window.
 struct TableWindows {
   const Table* table;
   std::map<Span, Rows> rows;
@@ -81,8 +80,8 @@ TableWindows windows_of(const Table& table)
   return windows;
 }
 
-/// True where rows of two tables hold the same numbers to the last bit beside their key, and more
-/// than layers without stress.
+/// True if rows of two tables have identical numbers, bit by bit, in all common columns except the
+/// key. Rows without stress do not count, because their two areas may be equal by chance.
 bool same_bits(const Table& a, const Rows& rows_a, const Table& b, const Rows& rows_b)
 {
   if (rows_a.size() != rows_b.size()) return false;
@@ -93,11 +92,11 @@ bool same_bits(const Table& a, const Rows& rows_a, const Table& b, const Rows& r
       if (std::bit_cast<std::uint64_t>(value) != std::bit_cast<std::uint64_t>(other)) return false;
       if (value != 0 && value == value) ++numbers;
     }
-  return numbers > 2;  // the two areas may be the same in layers that bear no stress
+  return numbers > 2;  // more than the areas of two species
 }
 
-/// True where rows hold the same areas or volumes of grains and the same stress, up to a millionth,
-/// which is what single precision keeps: nothing has moved between them.
+/// True if rows have the same areas or volumes of grains and the same stress, up to a millionth
+/// (the accuracy of single precision): the grains have not moved between the two windows.
 bool nothing_moved(const Table& a, const Rows& rows_a, const Table& b, const Rows& rows_b)
 {
   if (rows_a.size() != rows_b.size()) return false;
@@ -129,7 +128,7 @@ WindowLine put_in_line(const std::vector<TableWindow>& windows)
   };
 
   WindowLine line{Rows(windows.size()), 0, 0};
-  const TableWindow* last = nullptr;  // that began an observation
+  const TableWindow* last = nullptr;  // the first window of the current observation
   for (const auto k : order) {
     const auto& window = windows[k];
     const bool again = last != nullptr && overlap(last->span, window.span);
@@ -147,7 +146,7 @@ WindowLine put_in_line(const std::vector<TableWindow>& windows)
 
 namespace {
 
-/// The value of --seed in a command; "" where it has none.
+/// The value of --seed in a command; "" without --seed.
 std::string seed_in(const std::string& command)
 {
   std::istringstream words(command);
@@ -158,8 +157,8 @@ std::string seed_in(const std::string& command)
   return "";
 }
 
-/// True where one history goes on where the other ends, or both go on from a common beginning by
-/// restarts. Equal ones tell nothing: the same command may have run in several folders.
+/// True if one history continues the other, or if both continue a common beginning, by --restart.
+/// False for equal histories, because the same command may have run in several folders.
 bool goes_on(const std::vector<std::string>& a, const std::vector<std::string>& b)
 {
   const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
@@ -199,7 +198,7 @@ std::vector<RunSource> sources_of(const Table& table)
     if (key == "input") last->input = value;
     if (key == "bed") last->bed = parse_bed(value);
   }
-  // Behind the last run of several stands what merged them.
+  // In a merged table the last entry is not a run, but the command that merged the tables.
   if (sources.size() > 1 && sources.back().input.empty()) sources.pop_back();
   for (auto& source : sources)
     if (!source.history.empty()) source.history.pop_back();
@@ -228,13 +227,13 @@ Kinship kinship(const std::vector<RunSource>& a, const std::vector<RunSource>& b
 
 namespace {
 
-/// A table as this file compares it.
+/// Data of a table that this file compares.
 struct Compared {
   TableWindows windows;
   std::vector<RunSource> sources;
 };
 
-/// Begin of a window of `a` that overlaps a window of `b`, s. Windows of one table do not overlap.
+/// Begin (s) of a window of `a` that overlaps a window of `b`. Windows of one table do not overlap.
 std::optional<double> common_time(const TableWindows& a, const TableWindows& b)
 {
   auto one = a.rows.begin(), other = b.rows.begin();
@@ -257,7 +256,8 @@ std::optional<double> same_window(const TableWindows& a, const TableWindows& b)
   return {};
 }
 
-/// Tables of the same grains without a seed are of one run, unless they hold the same time.
+/// Kinship of two tables. Tables of the same grains without a seed belong to one run, unless their
+/// windows overlap.
 Kinship kinship_of(const Compared& a, const Compared& b)
 {
   const auto kin = kinship(a.sources, b.sources);
@@ -265,7 +265,7 @@ Kinship kinship_of(const Compared& a, const Compared& b)
   return common_time(a.windows, b.windows) ? Kinship::untold : Kinship::one_bed;
 }
 
-/// By what two tables are known as the same run: the digest of their input, or the bed.
+/// Evidence that two tables are of the same run: the digest of their input, or the bed.
 std::string sameness(const Compared& a, const Compared& b)
 {
   for (const auto& one : a.sources)
@@ -279,8 +279,8 @@ void require_distinct(const Compared& a, const Compared& b, Kinship kin)
 {
   const auto refuse = [&](double time, const std::string& how) {
     throw UsageError(
-        fmt::format("{} and {} both hold the time from {:g} s of the same run ({}); counting it "
-                    "twice would make intervals too narrow",
+        fmt::format("{} and {} both contain the time from {:g} s of the same run ({}); give only "
+                    "one of them, because counting it twice makes intervals too narrow",
                     a.windows.table->name, b.windows.table->name, time, how));
   };
   if (kin == Kinship::same_motion)
@@ -294,7 +294,7 @@ void require_distinct(const Compared& a, const Compared& b, Kinship kin)
 RunsOfTables find_runs(const std::vector<Table>& tables)
 {
   std::vector<Compared> all;
-  std::vector<std::size_t> first(tables.size());  // of each table, the first one of its run
+  std::vector<std::size_t> first(tables.size());  // for each table, the first table of its run
   std::vector<std::pair<std::size_t, std::size_t>> untold;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     all.push_back({windows_of(tables[k]), sources_of(tables[k])});
@@ -339,8 +339,8 @@ std::string RunsOfTables::doubt(const std::vector<Table>& tables) const
   const auto others =
       untold.size() > most ? fmt::format(" and {} others", untold.size() - most) : "";
   return fmt::format(
-      "{}{} count as tables of different runs, though neither grains, seed nor history in their "
-      "headers tell that they are; where two are of one run, the intervals are too narrow",
+      "{}{} count as tables of different runs, but grains, seed and history in their headers do "
+      "not prove it; if two of them are of one run, the intervals are too narrow",
       fmt::join(names, ", "), others);
 }
 

@@ -13,9 +13,9 @@
 
 namespace grseg {
 
-/// The windows of tables by layer and window, as they are compared with each other.
+/// Comparison of tables by layer and window: which of them are of one run, and which windows.
 
-/// From when to when, s.
+/// Begin and end of a window, s.
 using Span = std::pair<double, double>;
 
 /// A window of one of several tables.
@@ -24,55 +24,55 @@ struct TableWindow {
   Span span;
 };
 
-/// Windows of one run as observations of it, one after the other.
+/// Windows of one run, combined into observations and numbered in order of time.
 struct WindowLine {
-  std::vector<std::size_t> number;  // of each window that was given
-  std::size_t count = 0;            // of observations
-  std::size_t still = 0;            // windows that add none, since nothing moved
+  std::vector<std::size_t> number;  // observation of each window, from 0
+  std::size_t count = 0;            // number of observations
+  std::size_t still = 0;            // number of windows that add none, because no grain moved
 };
-/// Windows in order of time. Windows that overlap, as in a run and its repetition, are one
-/// observation, and so are windows between which nothing moved.
+/// Combines windows into observations. Windows that overlap, as in a run and its repetition, are
+/// one observation, and so are windows between which no grain moved.
 WindowLine put_in_line(const std::vector<TableWindow>& windows);
 
-/// A run, as a table that is made of it describes it.
+/// A run, as described by the header of a table that was made from it.
 struct RunSource {
-  std::string input;                 // its digest; "" where the table names none
-  std::optional<Bed> bed;            // not of tables made before there was such a line
-  std::vector<std::string> history;  // of the run, without what made the table
+  std::string input;                 // digest of the run; "" if the header has none
+  std::optional<Bed> bed;            // grains of the run; older tables have no line for it
+  std::vector<std::string> history;  // commands that made the run, but not the table
 
-  /// The scene's seed; "" where neither the bed nor the command names it.
+  /// The scene's seed; "" if neither the bed nor the command names it.
   std::string seed() const;
 };
 
-/// The runs of a table, several where it was merged; at least one.
+/// The runs of a table: one, or several if it was merged.
 std::vector<RunSource> sources_of(const Table& table);
 
-/// The things that two runs share.
+/// How closely two runs are related.
 enum class Kinship {
-  none,         ///< other grains, or another seed
-  untold,       ///< nothing that is recorded tells
-  same_grains,  ///< without a seed: one run, or several that began from one list of radii
-  one_bed,      ///< one deposition, and so one run: the same grains, or a history that goes on
-  same_motion,  ///< equal in all that acts on the motion: at one time they hold the same grains in the same places
+  none,         ///< different runs: other grains, or another seed
+  untold,       ///< unknown, because the headers do not say
+  same_grains,  ///< same grains without a seed: one run, or several from one list of radii
+  one_bed,      ///< one run, with one deposition: the same grains, or a history that continues
+  same_motion,  ///< identical motion: at any time the same grains are in the same places
 };
 Kinship kinship(const RunSource& a, const RunSource& b);
-/// The closest of any of their runs.
+/// The closest kinship of any run in `a` with any run in `b`.
 Kinship kinship(const std::vector<RunSource>& a, const std::vector<RunSource>& b);
 
-/// Tables grouped by run. Tables of one bed are of one run, such as a run and what continues it.
+/// Tables grouped by run. Tables of one bed belong to one run, such as a run and its continuation.
 struct RunsOfTables {
-  std::vector<std::size_t> run;     // of each table, its number in the order of their first tables
-  std::vector<std::size_t> untold;  // tables of which nothing tells that their runs are different
+  std::vector<std::size_t> run;     // number of each table's run, from 0 in order of appearance
+  std::vector<std::size_t> untold;  // tables that may be of the run of another table
 
-  /// Names of the tables of each run that has several.
+  /// Names of the tables of each run that has several tables.
   std::vector<std::vector<std::string>> shared(const std::vector<Table>& tables) const;
-  /// A sentence where a table may be of the run of another one, mostly none.
+  /// A warning about the tables in `untold`; "" if there are none.
   std::string doubt(const std::vector<Table>& tables) const;
 };
 
-/// UsageError where two tables hold the same time of the same run, which would count twice: they
-/// are the same in all that acts on the motion and their windows overlap, or all rows of a window
-/// are the same in both to the last bit, whatever their inputs are called.
+/// Groups tables by run. Throws UsageError if two tables contain the same time of the same run,
+/// which would count twice: if their kinship is same_motion and their windows overlap, or if all
+/// rows of a window are identical in both, bit by bit.
 RunsOfTables find_runs(const std::vector<Table>& tables);
 
 }  // namespace grseg

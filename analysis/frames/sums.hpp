@@ -11,17 +11,17 @@
 
 namespace grseg {
 
-/// Stands in tables for what is not known or has no meaning.
+/// Value in tables of numbers that are not known or not defined.
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// a/b, or NaN unless b > 0: a mean over nothing is not known.
+/// a/b, or NaN unless b > 0: the mean of an empty set is not defined.
 inline double ratio(double a, double b)
 {
   return b > 0 ? a / b : no_number;
 }
 
-/// Adds sums to sums, place by place: structs that list their `members`, numbers and whatever has
-/// +=, arrays and vectors of them. A vector of layers grows to the length of the other.
+/// Adds `others` to `sums`, element by element: structs that list their `members`, types with +=,
+/// and arrays and vectors of these. A vector grows to the length of the other one.
 template <class Sums>
 void accumulate(Sums& sums, const Sums& others)
 {
@@ -37,7 +37,7 @@ void accumulate(Sums& sums, const Sums& others)
   }
 }
 
-/// Calls use(part) with every number, vector and tensor in such sums.
+/// Calls use(part) with every number, vector and tensor in `sums`, which are as for accumulate().
 template <class Sums, class Use>
 void for_each_part(Sums& sums, const Use& use)
 {
@@ -74,14 +74,14 @@ Sums operator/(Sums sums, double number)
   return sums;
 }
 
-/// One number of a table's row with the name and unit of its column, "f_S[N]". Tables list their
-/// cells once and take both the line of column names and the rows from that list.
+/// One number of a table's row with the name and unit of its column, "f_S[N]". A table's columns
+/// and its rows both come from one list of cells.
 struct Cell {
   std::string column;
   double value;
 };
 
-/// Adds a list behind another.
+/// Appends `more` to a list.
 template <class List>
 List& add_all(List& list, const List& more)
 {
@@ -89,7 +89,7 @@ List& add_all(List& list, const List& more)
   return list;
 }
 
-/// Results of `of`, a function or a member, for each in a list.
+/// Results of `of`, a function or a member, for each element of a list.
 template <class List, class Of>
 auto listed(const List& list, const Of& of)
 {

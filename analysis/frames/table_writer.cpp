@@ -29,7 +29,7 @@ std::string number_or_unknown(const Parameters& parameters, const char* key)
   return number && !std::isnan(*number) ? format_number(*number) : "unknown";
 }
 
-/// Header lines on annuli and maps.
+/// Header lines that describe annuli or a map; none for layers.
 Header bins_lines(const Layers& layers)
 {
   const auto* axis = layers.axis();
@@ -47,7 +47,7 @@ Header bins_lines(const Layers& layers)
   return lines;
 }
 
-/// "initial = mixed; base = grains": the scene of a run of grseg-sim, in SI; "" of other runs.
+/// Scene of a run of grseg-sim, in SI units: "initial = mixed; base = grains"; otherwise "".
 std::string scene_in_one_line(const TrajectoryReader& run)
 {
   auto text = run.parameters().text("scene");
@@ -57,7 +57,7 @@ std::string scene_in_one_line(const TrajectoryReader& run)
   return printable(text);
 }
 
-/// Adds header lines on the run: its grains, gravity and scene.
+/// Adds header lines that describe the run: dimension, grains, gravity and step.
 void add_lines_of_run(Header& header, const FrameLoop& loop, const Header& settings)
 {
   const auto& run = loop.run();
@@ -89,31 +89,31 @@ void add_lines_of_run(Header& header, const FrameLoop& loop, const Header& setti
   add("step", run.step());
 }
 
-/// UsageError where the sums of one window need more memory than there is.
+/// Throws UsageError if the sums of one window need more memory than is free.
 void require_memory(const FrameLoop& loop, std::size_t columns)
 {
   const auto* map = loop.layers().map();
   const auto cells = map ? static_cast<double>(map->cells())
                          : std::ceil(loop.run().box().length_y / loop.layers().thickness());
   const int threads = loop.options().threads;
-  // The window has sums of its own, and every thread adds its sums to them.
+  // The window and every thread have sums of their own.
   const double need = cells * static_cast<double>(columns) * sizeof(double) * (1 + threads);
   const double free = free_memory();
   if (need < free) return;
   throw UsageError(fmt::format(
-      "{:.3g} {} with {} numbers each need about {:.1f} GB, and {:.1f} GB are free; choose thicker "
-      "--layer{}",
+      "{:.3g} {} with {} numbers each need about {:.1f} GB, but {:.1f} GB are free; choose a "
+      "larger --layer{}",
       cells, map ? "cells" : "layers", columns, need / 1e9, free / 1e9,
       threads > 1 ? " or fewer --threads" : ""));
 }
 
-/// The line that the header of a part has and the header of the whole table lacks.
+/// Header line that only the table of a part has (--part).
 HeaderLine part_line(const OutputPart& part)
 {
   return {"part", part.text()};
 }
 
-/// The part of `table`, which has no rows, in the file `path`.
+/// Reads a part of `table` from the file `path`. `table` has a header and columns, but no rows.
 Table read_part(const Table& table, const OutputPart& part, const std::string& path)
 {
   const auto remedy =
@@ -128,11 +128,11 @@ Table read_part(const Table& table, const OutputPart& part, const std::string& p
   const auto [ours, theirs] = std::mismatch(expected.header.begin(), expected.header.end(),
                                             found.header.begin(), found.header.end());
   const auto line = [](auto at, auto end) {
-    return at == end ? "no line there" : fmt::format("'# {}: {}'", at->first, at->second);
+    return at == end ? "no line" : fmt::format("'# {}: {}'", at->first, at->second);
   };
   if (ours != expected.header.end() || theirs != found.header.end())
-    throw FormatError(fmt::format("{}: is a part of another table, with {} where this has {}; {}",
-                                  path, line(theirs, found.header.end()),
+    throw FormatError(fmt::format("{}: is a part of another table, with {} instead of {}; {}", path,
+                                  line(theirs, found.header.end()),
                                   line(ours, expected.header.end()), remedy));
   if (expected.columns != found.columns)
     throw FormatError(fmt::format("{}: has other columns than this table; {}", path, remedy));

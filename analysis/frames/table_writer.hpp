@@ -13,24 +13,22 @@
 
 namespace grseg {
 
-/// A table without rows of what `loop` sums: header with program, preset, history, content digest
-/// of the run, what of it was verified, the numbers that later tools need ("unknown" where the run
-/// does not have its density, friction or restitution) and `settings` of the tool, which stand for
-/// what the run says of the same; key columns, then `columns`. UsageError where the sums of one
-/// window need more memory than there is.
+/// A table for sums of `loop`, without rows. Its columns are the key columns, then `columns`. Its
+/// header has program, preset, history, digest of the run, verification, numbers that later tools
+/// need ("unknown" if the run lacks density, friction or restitution), and `settings` of the tool,
+/// which replace values of the run. Throws UsageError if one window needs more memory than is free.
 Table empty_table(const FrameLoop& loop, const std::string& command, const Header& settings,
                   const std::vector<std::string>& columns);
-/// The key columns t0 t1 y0 y1 frames V of a layer, or the key columns of a cell, followed by
-/// `values`.
+/// Numbers of a row: the key columns of a layer (t0 t1 y0 y1 frames V) or cell, then `values`.
 std::vector<double> table_row(const FrameLoop& loop, const Window& window, std::size_t layer,
                               const std::vector<double>& values);
 
-/// The table that a tool makes of a run. Where it has many rows, they are written and removed, so
-/// that a table of any size needs little memory; JSON, files of maps and tables of parts keep
-/// theirs.
+/// The table that a tool makes of a run. If it has many rows, they are written at intervals and
+/// removed, so that a table of any size needs little memory. Rows for JSON, short tables, files of
+/// maps and parts remain in memory.
 class TableWriter {
  public:
-  /// As empty_table.
+  /// Starts with empty_table().
   TableWriter(FrameLoop& loop, const std::string& command, const Header& settings,
               const std::vector<std::string>& columns);
 
@@ -40,12 +38,12 @@ class TableWriter {
   {
     add(table_row(loop_, window, layer, values));
   }
-  /// Adds the row of the whole bed of a given height: y0 = y1 = nan, V = Lx (Lz) times the height,
-  /// nan for a bed whose top lies below y = 0, as in a hopper that runs out.
+  /// Adds the row of the whole bed of a given height (m): y0 = y1 = nan, and V = Lx (Lz) times the
+  /// height. V is nan if the bed's top is below y = 0, as in a hopper that runs empty.
   void add_bed(const Window& window, double height, const std::vector<double>& values);
-  /// To the file of --output, or to standard output. A map may become a file for other programs
-  /// (formats/export/map_file.hpp). `next` is what a reader of that file runs, without its name:
-  /// "grseg-fit".
+  /// Writes the table to the file of --output, or to standard output; a map also as a file for
+  /// other programs (formats/export/map_file.hpp). `next` is the command to suggest for this file,
+  /// without the file's name: "grseg-fit".
   void write(const std::string& next = "");
 
  private:

@@ -17,9 +17,9 @@ namespace {
 
 using Step = std::int64_t;
 
-constexpr double hole = 0.1;  // of a window at most
+constexpr double hole = 0.1;  // largest share of a window that may be without frames
 
-/// From one frame to the next.
+/// Numbers of steps from each frame to the next.
 std::vector<Step> gaps_of(const RunTimes& run)
 {
   std::vector<Step> gaps(run.steps.size());
@@ -28,7 +28,7 @@ std::vector<Step> gaps_of(const RunTimes& run)
   return gaps;
 }
 
-/// The longest time between two frames that are used, one in `stride`, holes left out.
+/// The longest time between used frames (every `stride`-th), in steps, without holes (> `longest`).
 Step between_used(const RunTimes& run, int stride, Step longest)
 {
   const auto gaps = gaps_of(run);
@@ -52,23 +52,23 @@ void check(const RunTimes& run, const WindowSettings& settings)
 {
   if (run.steps.empty()) throw RunError("the run has no frames");
   if (!(run.step > 0) || !std::isfinite(run.step))
-    throw FormatError(fmt::format("the run's step is {:g} s; it should be positive", run.step));
+    throw FormatError(fmt::format("the run's step is {:g} s; it must be positive", run.step));
   if (settings.stride < 1) throw UsageError("--stride must be at least 1");
   if (!(settings.length > 0)) throw UsageError("--window must be positive");
 }
 
-/// Where windows lie, in steps.
+/// Times of the windows, in steps.
 struct Grid {
   Step begin = 0, end = 0, length = 0;
-  Step longest = 0;  // that a frame stands for
-  Step used = 0;     // between the frames that are used
+  Step longest = 0;  // longest time that a frame represents (longest_interval())
+  Step used = 0;     // longest time between used frames
 
   Step begin_of(Step window) const { return begin + window * length; }
-  /// True where the run has begun by then.
+  /// True if the run has begun at step `at`.
   bool has_begun(const RunTimes& run, Step at) const { return at > run.steps.front() - longest; }
 };
 
-/// For how long no frame stands in this window. What precedes the first frame counts as filled.
+/// Number of steps in a window that no frame represents, without those before the first frame.
 Step empty_part(const RunTimes& run, const Grid& grid, Step window)
 {
   const Step begin = grid.begin_of(window), end = begin + grid.length;
@@ -88,7 +88,7 @@ bool has_hole(const RunTimes& run, const Grid& grid, Step window)
          hole * static_cast<double>(grid.length);
 }
 
-/// As few digits of a time as give these steps again.
+/// The time of these steps in s, with as few digits as give the same number of steps when read.
 std::string typed(Step steps, double step)
 {
   const double time = static_cast<double>(steps) * step;
@@ -106,13 +106,13 @@ std::string typed(Step steps, double step)
       std::ranges::any_of(run.steps, [&](Step k) { return k >= grid.begin && k < grid.end; });
   if (!any)
     throw RunError(fmt::format(
-        "no frame lies between --begin and --end; the run goes from {:.6g} s to {:.6g} s",
+        "no frame lies between --begin and --end; the run has frames from {:.6g} s to {:.6g} s",
         seconds(run.steps.front()), seconds(run.steps.back())));
   const Step longest = grid.end - grid.begin;
   const bool fits = grid.has_begun(run, grid.begin) && longest >= grid.used &&
                     !has_hole(run, {grid.begin, grid.end, longest, grid.longest, grid.used}, 0);
   throw RunError(fmt::format(
-      "no window of {:g} s is filled: frames used reach from {:.6g} s to {:.6g} s; choose {}--window "
+      "no window of {:g} s is filled by frames between {:.6g} s and {:.6g} s; choose {}--window "
       "all{}",
       settings.length, seconds(grid.begin), seconds(grid.end),
       fits ? fmt::format("--window {} or ", typed(longest, run.step)) : "",
@@ -153,7 +153,7 @@ po::typed_value<std::string>* window_option(WindowSettings& settings)
         const auto number = text == "all" ? all_frames : parse_number(text).value_or(0);
         if (!(number > 0) || (std::isinf(number) && text != "all"))
           throw UsageError(fmt::format(
-              "--window '{}' is not a length of time: give seconds, as in 1.25, or all", text));
+              "--window '{}' is not a duration; give seconds, e.g. 1.25, or all", text));
         settings.length = number;
       });
 }
@@ -166,7 +166,7 @@ std::string window_text(const WindowSettings& settings)
 RunTimes times_of(const TrajectoryReader& run)
 {
   const auto& parameters = run.parameters();
-  // An import states the mean of the times between its frames.
+  // An imported run stores the mean interval between frames, which is not used here.
   const bool imported = parameters.texts.contains("import_format");
   return {run.steps(), run.step(),
           imported ? 0 : parameters.find_number("frame_interval").value_or(0)};
@@ -194,7 +194,7 @@ Windows cut_into_windows(const RunTimes& run, const WindowSettings& settings)
   const double origin = as_given ? *settings.begin : static_cast<double>(grid.begin) * run.step;
 
   const double exact = static_cast<double>(grid.length) * run.step;
-  // As it was given where that is a whole number of steps.
+  // The length as given if it is a whole number of steps, else rounded to one.
   Windows windows{std::abs(exact - settings.length) < 1e-9 * exact ? settings.length : exact, {}};
   Step last = -1;
   bool is_filled = false;

@@ -45,7 +45,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A row of derived quantities in the making and what it is derived from.
+/// The cells of a row of derived quantities, and the data from which they are derived.
 template <int D>
 struct Derivation {
   const SumsRow<D>& row;
@@ -54,12 +54,12 @@ struct Derivation {
   std::vector<Cell> cells;
 
   const StructureSums<D>& sums() const { return row.sums; }
-  /// H, m.
+  /// Height H of the surface, m.
   double depth(double height_of_bed) const
   {
     return settings.depth > 0 ? settings.depth : height_of_bed;
   }
-  /// d_L/d_S, nominal.
+  /// Ratio d_L/d_S of nominal diameters.
   double size_ratio() const { return constants.large_diameter / constants.small_diameter; }
   void add(std::string column, double value) { cells.push_back({std::move(column), value}); }
 };
@@ -92,8 +92,8 @@ void add_coordination(Derivation<D>& to)
   by_partner(Species::large, "z_LL", "z_LS", "z_Lb");
 }
 
-/// Height at which the pressure on a species is taken: the layer's middle, or of the whole bed the
-/// species' centre of mass.
+/// Height of the pressure by which forces on a species are divided, m: the layer's middle, or for
+/// the whole bed the species' centre of mass.
 template <int D>
 double height_of(const Derivation<D>& of, Species species)
 {
@@ -101,7 +101,7 @@ double height_of(const Derivation<D>& of, Species species)
   return species == Species::small ? of.row.heights.small : of.row.heights.large;
 }
 
-/// The perimeter of a disc over pi, the surface of a sphere over pi: d or d^2.
+/// Perimeter of a disc or surface of a sphere, divided by pi: d or d^2.
 template <int D>
 double perimeter(double d)
 {
@@ -115,10 +115,11 @@ double gravity_of(const RunConstants& run)
   return D == 2 ? in_plane : std::hypot(in_plane, run.gravity_z);
 }
 
-// The paper's mean forces over m_S g and over the pressure at their height, here rho g cos(theta)
-// (H - y) d_S (the paper leaves out cos(theta) and d_S); d_S^2 in three dimensions. In the neutral
-// model forces ignore grain size and that is the pressure in the grains, so that Pi = z f/(pi d)
-// gives f = pi d rho g cos(theta) (H - y)/z, and Pi = z f/(pi d^2) the same with d^2.
+// Mean forces of Staron & Phillips (2015) over m_S g and over the pressure at their height, here
+// rho g cos(theta) (H - y) d_S (they leave out cos(theta) and d_S); d_S^2 in three dimensions. In
+// the neutral model forces do not depend on grain size, and rho g cos(theta) (H - y) is the
+// pressure in the grains. Then Pi = z f/(pi d) gives f = pi d rho g cos(theta) (H - y)/z; with d^2
+// for spheres.
 template <int D>
 void add_forces(Derivation<D>& to)
 {
@@ -158,7 +159,7 @@ void add_pressures(Derivation<D>& to)
                p_large = stress.large().trace() / D;
   const auto estimate = estimate_pressure(to.sums(), to.settings.measure,
                                           to.constants.small_diameter, to.constants.large_diameter);
-  constexpr bool printed = D == 2;  // the paper has no spheres
+  constexpr bool printed = D == 2;  // Staron & Phillips (2015) print an equation for discs only
   const char* unit = D == 2 ? "[N/m]" : "[Pa]";
   const auto compare = [&](const char* name, double pressure, double estimated) {
     to.add(fmt::format("P{}{}", name, unit), pressure);
@@ -210,7 +211,7 @@ void add_friction(Derivation<D>& to)
   to.add("strong_all", ratio(all.strong, all.contacts));
 }
 
-/// Without contacts: p = q = 0, without a direction.
+/// Principal stress without contacts: p = q = 0, and NaN for the direction.
 template <int D>
 PrincipalStress<D> no_stress()
 {
@@ -220,7 +221,7 @@ PrincipalStress<D> no_stress()
     return {0, 0, no_number, Vec3::Constant(no_number)};
 }
 
-/// How large a pair type's anisotropies are and where they point.
+/// Adds the sizes and directions of a pair type's anisotropies, and its principal stress.
 void add_anisotropy(std::vector<Cell>& cells, const char* name, const Anisotropy<2>& a,
                     const PrincipalStress<2>& stress)
 {

@@ -9,16 +9,18 @@
 
 namespace grseg {
 
-/// Estimates of the partial pressures, N/m or Pa, from phi, z, f and nominal diameters d, in two
-/// dimensions (Staron & Phillips 2015, eqs. 8 and 9) and in three:
+/// Estimates Pi of the partial pressures, N/m or Pa, from composition phi, contacts per grain z,
+/// mean force f and nominal diameter d, in two dimensions (Staron & Phillips 2015, eqs. 8 and 9)
+/// and in three:
 ///   Pi_L = phi_L z_L f_L/(pi d_L),   Pi_S = phi_S z_S f_S/(pi d_S),   Pi = Pi_S + Pi_L
 ///   Pi_L = phi_L z_L f_L/(pi d_L^2), Pi_S = phi_S z_S f_S/(pi d_S^2)
-/// The paper prints 2/(pi d), which lacks the 1/2 of P = tr(sigma)/2 and gives twice the
-/// pressure. In three P = tr(sigma)/3 and a grain has the volume pi/6 d^3.
-/// With f the mean normal force over contact ends, grains of one size per species and the whole
-/// bed, Pi_S and Pi_L are the partial pressures exactly, since tr sigma^L = (1/V) sum over ends on
-/// L of r f_n. Since phi_S + phi_L = 1 they are stresses in the volume of the grains; the stress in
-/// the whole volume is nu times as large. NaN where z or f is, unless the species is absent.
+/// Eqs. 8 and 9 are printed with 2/(pi d), without the 1/2 of P = tr(sigma)/2, which gives twice
+/// the pressure. In three dimensions P = tr(sigma)/3 and a grain has the volume pi/6 d^3.
+///
+/// Pi_S and Pi_L are exact if f is the mean normal force over contact ends, each species has one
+/// size, and the sums are of the whole bed, because tr sigma^L = (1/V) sum over ends on L of r f_n.
+/// They are stresses in the volume of the grains, as phi_S + phi_L = 1; the stress in the whole
+/// volume is nu times as large. NaN if z or f is NaN, but 0 for an absent species.
 struct PressureEstimate {
   double small = 0, large = 0;
   double total() const { return small + large; }
@@ -27,27 +29,27 @@ template <int D>
 PressureEstimate estimate_pressure(const StructureSums<D>& sums, const ForceMeasure& measure,
                                    double small_diameter, double large_diameter);
 
-/// s with sigma^S/sigma^L = s phi_S/phi_L (eq. 2 of the paper, for one point); NaN where a species
-/// is absent or the large grains bear no pressure.
+/// Slope s of sigma^S/sigma^L = s phi_S/phi_L (Staron & Phillips 2015, eq. 2) for one point; NaN if
+/// a species is absent or the large grains bear no pressure.
 double partition_slope(double stress_small, double stress_large, double phi_large);
-/// Gray & Thornton's B of a slope at one composition, B = (1 - s)/(phi_L + s phi_S): eqs. 3 and 4
-/// of the paper solved for B, and with s = r_d z_S f_S/(z_L f_L) its B from the micro-structure,
-/// eq. 12.
+/// B of Gray & Thornton from the slope s at one composition, (1 - s)/(phi_L + s phi_S): eqs. 3 and
+/// 4 of Staron & Phillips (2015) solved for B. With s = r_d z_S f_S/(z_L f_L) it is B from the
+/// micro-structure, their eq. 12.
 double local_b(double slope, double phi_large);
 
 /// The choices that turn sums into coordination, forces, pressures and B.
 struct DerivedSettings {
   ForceMeasure measure;
-  PartitionRule rule;  // of P_S and P_L: size, half, drop or uniform
-  double depth = 0;    // m, H in f/(rho g cos(theta) (H - y) d_S^(D-1)); 0: the bed's height
+  PartitionRule rule;  // rule for P_S and P_L: size, half, drop or uniform
+  double depth = 0;    // H in f/(rho g cos(theta) (H - y) d_S^(D-1)), m; 0: the bed's height
 };
 
-/// Everything that follows from one row of sums, in the order of the table;
-/// docs/studies/microstructure.md defines each column. From Staron & Phillips (2015): mean forces
-/// f_S and f_L over m_S g (figure 6c) and over the pressure at their height (figure 6d), the
-/// estimates Pi of the pressures beside the pressures themselves (eqs. 8 and 9, figure 5), and B of
-/// pressures (eqs. 10 and 11) and of the micro-structure (eq. 12). NaN where a species, a pair type
-/// or a constant of the run is missing.
+/// All quantities that follow from one row of sums, in the order of the table.
+/// docs/studies/microstructure.md defines each column. Quantities of Staron & Phillips (2015): mean
+/// forces f_S and f_L over m_S g (figure 6c) and over the pressure at their height (figure 6d), the
+/// pressures P and their estimates Pi (eqs. 8 and 9, figure 5), and B from pressures (eqs. 10 and
+/// 11) and from the micro-structure (eq. 12). NaN if a species, a pair type or a constant of the
+/// run is missing.
 template <int D>
 std::vector<Cell> derived_quantities(const SumsRow<D>& row, const RunConstants& constants,
                                      const DerivedSettings& settings);

@@ -18,7 +18,7 @@ Complex moment(const Vec2& sum, double number)
   return {sum.x() / number, sum.y() / number};
 }
 
-/// a exp(2 i theta), theta in degrees.
+/// a exp(2 i theta), with theta in degrees.
 Complex twofold(double a, double theta)
 {
   return std::polar(a, 2 * theta * std::numbers::pi / 180);
@@ -51,12 +51,12 @@ void FabricSums<3>::add(const Vec3& n, double f_n, const Vec3& f_t)
   tangential_force += f_t * n.transpose();
 }
 
-// With A = a exp(2 i theta_0) for each of the three, the moments of the expansions are
+// With A = a exp(2 i theta_0) for each of the three anisotropies, the moments of E, f_n and f_t are
 //   <exp 2i theta>     = A_c/2
 //   <f_n>              = f_0 (1 + Re(conj(A_c) A_n)/2)
 //   <f_n exp 2i theta> = f_0 (A_c + A_n)/2
 //   <f_t exp 2i theta> = -i f_0 A_t/2
-// which is linear in 1/f_0, A_n and A_t once A_c is known.
+// which is linear in 1/f_0, A_n and A_t for known A_c.
 Anisotropy<2> anisotropy(const FabricSums<2>& sums, double contacts, double force)
 {
   if (!(contacts > 0)) return {no_number, no_number, no_number, no_number, no_number, no_number};
@@ -101,7 +101,7 @@ Tensor3 deviator(const Tensor3& tensor)
   return tensor - tensor.trace() / 3 * Tensor3::Identity();
 }
 
-/// sqrt(3/2 a:a) of a deviator.
+/// Size sqrt(3/2 a:a) of a deviator a.
 double size(const Tensor3& a)
 {
   return std::sqrt(1.5) * a.norm();
@@ -112,20 +112,20 @@ double inner(const Tensor3& a, const Tensor3& b)
   return a.cwiseProduct(b).sum();
 }
 
-/// Mean of m m (m.a.m) (m.b.m) over all directions m, of deviators a and b.
+/// Mean of m m (m.a.m) (m.b.m) over all directions m, for deviators a and b.
 Tensor3 mean_of_fourfold(const Tensor3& a, const Tensor3& b)
 {
   const Tensor3 ab = a * b;
   return (2 * ab.trace() * Tensor3::Identity() + 4 * (ab + ab.transpose())) / 105;
 }
 
-/// <f_n m m>/f_0 with scale = 1; linear in scale and n.
+/// The moment <f_n m m>/f_0 for scale = 1. It is linear in (scale, n).
 Tensor3 normal_moment(const Tensor3& c, double scale, const Tensor3& n)
 {
   return scale * (Tensor3::Identity() / 3 + 2.0 / 15 * c) + 2.0 / 15 * n + mean_of_fourfold(c, n);
 }
 
-/// The symmetric part of <f_t m>/f_0; its trace is 0.
+/// The symmetric part of the moment <f_t m>/f_0, whose trace is 0.
 Tensor3 tangential_moment(const Tensor3& c, const Tensor3& t)
 {
   return t / 5 + 2.0 / 15 * symmetric(t * c) - mean_of_fourfold(c, t);
@@ -140,13 +140,13 @@ Six components(const Tensor3& a)
   return six;
 }
 
-/// A number and a deviator.
+/// Unknowns of a linear equation: a number and a deviator.
 struct Expansion {
   double scale = 0;
   Tensor3 deviator = Tensor3::Zero();
 };
 
-/// The expansion whose `moment`, linear in it and symmetric, is the one measured.
+/// The expansion e with moment(e) = `measured`, for a linear `moment` with symmetric tensors.
 template <class Moment>
 Expansion expansion_of(const Tensor3& measured, const Moment& moment)
 {
@@ -159,7 +159,7 @@ Expansion expansion_of(const Tensor3& measured, const Moment& moment)
     basis[static_cast<std::size_t>(k) + 4].deviator(2, k) = 1;
   }
   basis[3].deviator(0, 1) = basis[3].deviator(1, 0) = 1;
-  Eigen::MatrixXd matrix(6, 6);  // g++ 16 takes Eigen's loops over six to leave a fixed one
+  Eigen::MatrixXd matrix(6, 6);  // for a fixed size, g++ 16 warns that Eigen's loops exceed it
   for (Eigen::Index k = 0; k < 6; ++k)
     matrix.col(k) = components(moment(basis[static_cast<std::size_t>(k)]));
   const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(components(measured));
@@ -174,8 +174,8 @@ Expansion expansion_of(const Tensor3& measured, const Moment& moment)
 
 }  // namespace
 
-// <m m> = I/3 + 2/15 c, <f_n m m> and <f_t m> as above: linear in f_0, f_0 n and f_0 t once c is
-// known.
+// <m m> = I/3 + 2/15 c gives c. <f_n m m> and <f_t m> (normal_moment(), tangential_moment()) are
+// linear in f_0, f_0 n and f_0 t for known c.
 Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double)
 {
   const Tensor3 unknown = Tensor3::Constant(no_number);
@@ -211,7 +211,7 @@ PrincipalStress<3> principal_stress(const Tensor3& stress)
 {
   const Tensor3 even = symmetric(stress);
   const Eigen::SelfAdjointEigenSolver<Tensor3> solver(even);
-  const Vec3& s = solver.eigenvalues();  // increasing
+  const Vec3& s = solver.eigenvalues();  // in increasing order
   return {s.sum() / 3, size(deviator(even)), ratio(s[1] - s[0], s[2] - s[0]),
           solver.eigenvectors().col(2)};
 }

@@ -9,11 +9,11 @@
 
 namespace grseg {
 
-/// Second moments of the directions of contacts and of their forces, sums over contacts. In two
-/// dimensions each is a weight times (cos 2 theta, sin 2 theta), theta the direction of the normal
-/// n, counter-clockwise from x, and the weight of the tangential force is f_t of ForceParts. In
-/// three they are the tensors n (x) n, f_n n (x) n and f_tangential (x) n. Exchanging the two
-/// grains of a contact changes none of them.
+/// Second moments of the directions of contacts and of their forces, summed over contacts. In two
+/// dimensions a contact adds a weight times (cos 2 theta, sin 2 theta), with theta the direction of
+/// the normal n, counter-clockwise from x. The weights are 1, f_n and f_t of ForceParts. In three
+/// dimensions it adds the tensors n (x) n, f_n n (x) n and f_tangential (x) n. Exchanging the two
+/// grains of a contact does not change the moments.
 template <int D>
 struct FabricSums {
   static constexpr int dimension = D;
@@ -21,8 +21,8 @@ struct FabricSums {
   using Tangential = std::conditional_t<D == 2, double, Vec3>;
 
   Moment normal = Moment::Zero();
-  Moment normal_force = Moment::Zero();      // N
-  Moment tangential_force = Moment::Zero();  // N
+  Moment normal_force = Moment::Zero();      // moment weighted by f_n, N
+  Moment tangential_force = Moment::Zero();  // moment weighted by f_t, N
 
   void add(const Vector<D>& n, double f_n, const Tangential& f_t);
   static constexpr auto members =
@@ -41,9 +41,9 @@ struct Anisotropy;
 template <>
 struct Anisotropy<2> {
   double a_c, a_n, a_t;
-  double theta_c, theta_n, theta_t;  // degrees from x, in [0, 180); of the largest value
+  double theta_c, theta_n, theta_t;  // directions of the largest value, degrees from x, [0, 180)
 
-  /// q/p for small anisotropies that share their directions and branches of one length:
+  /// q/p for small anisotropies with the same directions, and branches of one length:
   /// (a_c + a_n + a_t)/2 (Rothenburg & Bathurst 1989).
   double rothenburg() const { return (a_c + a_n + a_t) / 2; }
   /// q/p for anisotropies of any size and direction and branches of one length: with
@@ -51,15 +51,16 @@ struct Anisotropy<2> {
   double stress_ratio() const;
 };
 
-/// In three (Ouadfel & Rothenburg 2001; Guo & Zhao 2013), with deviators c, n and t, of contacts in
-/// the direction m:
+/// In three dimensions (Ouadfel & Rothenburg 2001; Guo & Zhao 2013), with deviators c, n and t, for
+/// contacts in the direction m:
 ///   share of contacts   E(m)   = (1 + m.c.m)/(4 pi)
 ///   mean normal force   f_n(m) = f_0 (1 + m.n.m)
 ///   mean tangential     f_t(m) = f_0 (t.m - (m.t.m) m), a vector
 template <>
 struct Anisotropy<3> {
   Tensor3 c, n, t;
-  /// sqrt(3/2 a:a) of each, with the sign of a:sigma' for the stress of branches of one length.
+  /// Size sqrt(3/2 a:a) of each deviator a, with the sign of a:sigma', where sigma' is the deviator
+  /// of the stress for branches of one length.
   double a_c, a_n, a_t;
 
   /// q/p for small anisotropies with the principal axes of the stress and branches of one length:
@@ -69,11 +70,11 @@ struct Anisotropy<3> {
   double stress_ratio() const;
 };
 
-/// The anisotropies with the given moments, exactly: if E, f_n and f_t have the forms above, they
-/// are recovered, however large. `contacts` is the number of contacts, `force` the sum of their
-/// f_n, N. All are NaN without contacts; a_n and a_t are NaN where E is negative somewhere, in two
-/// dimensions where a_c >= 1. A sample of N contacts in random directions has an a_c of about
-/// sqrt(pi/N) in two dimensions and 7.5/sqrt(N) in three.
+/// The anisotropies that have the given moments. They are exact for any size if E, f_n and f_t have
+/// the forms above. `contacts` is the number of contacts, `force` the sum of their f_n, N. All are
+/// NaN without contacts. a_n and a_t are NaN if E is negative for some direction; in two dimensions
+/// this means a_c >= 1. A sample of N contacts in random directions has an a_c of about sqrt(pi/N)
+/// in two dimensions and 7.5/sqrt(N) in three.
 Anisotropy<2> anisotropy(const FabricSums<2>& sums, double contacts, double force);
 Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double force);
 
@@ -81,30 +82,31 @@ Anisotropy<3> anisotropy(const FabricSums<3>& sums, double contacts, double forc
 template <int D>
 struct PrincipalStress;
 
-/// s1 >= s2: p = (s1 + s2)/2, the pressure of Staron & Phillips (2015), and q = (s1 - s2)/2.
+/// Two dimensions, principal stresses s1 >= s2: p = (s1 + s2)/2, the pressure of Staron & Phillips
+/// (2015), and q = (s1 - s2)/2.
 template <>
 struct PrincipalStress<2> {
   double p, q;
-  double theta;  // degrees from x, in [0, 180), of s1
+  double theta;  // direction of s1, degrees from x, in [0, 180)
 };
-/// s1 >= s2 >= s3: p = (s1 + s2 + s3)/3 and q = sqrt(3/2 sigma':sigma'), which is s1 - s3 where two
-/// of them are equal.
+/// Three dimensions, s1 >= s2 >= s3: p = (s1 + s2 + s3)/3 and q = sqrt(3/2 sigma':sigma'), which is
+/// s1 - s3 if two of the three are equal.
 template <>
 struct PrincipalStress<3> {
   double p, q;
-  double b;  // (s2 - s3)/(s1 - s3): 0 in axial compression, 1 in extension; NaN where all are equal
+  double b;    // (s2 - s3)/(s1 - s3): 0 in axial compression, 1 in extension; NaN if all are equal
   Vec3 major;  // direction of s1
 };
 PrincipalStress<2> principal_stress(const Tensor2& stress);
 PrincipalStress<3> principal_stress(const Tensor3& stress);
 
-/// The direction of an axis in space in degrees: `theta` from x towards y, in [0, 180), of its
-/// projection onto the plane of x and y, and `tilt` out of that plane towards z, -90 to 90.
+/// Direction of an axis in space, in degrees. `theta`, in [0, 180), is the angle from x towards y
+/// of its projection onto the xy plane. `tilt`, -90 to 90, is its angle to this plane towards z.
 struct AxisAngles {
   double theta, tilt;
 };
 AxisAngles axis_angles(const Vec3& axis);
-/// The axis along which a symmetric tensor is largest.
+/// Principal axis of the largest eigenvalue of a symmetric tensor.
 Vec3 major_axis(const Tensor3& tensor);
 
 }  // namespace grseg

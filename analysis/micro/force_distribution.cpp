@@ -27,9 +27,9 @@ void for_each_loaded_contact(const Grains& grains, const Frame<D>& frame, const 
 /// One bin of the histogram of f_n/<f_n>.
 struct Bin {
   double lower = 0, upper = 0;
-  std::array<double, pair_types> number{};   // of contacts per frame
-  std::array<double, pair_types> density{};  // share of the contacts over the width
-  std::array<double, pair_types> tail{};     // share of the contacts at or above `lower`
+  std::array<double, pair_types> number{};   // contacts per frame
+  std::array<double, pair_types> density{};  // share of contacts in the bin over its width
+  std::array<double, pair_types> tail{};     // share of contacts at or above `lower`
 };
 
 std::vector<Cell> cells(const Bin& bin)
@@ -91,7 +91,7 @@ std::size_t ForceDistribution<D>::bin_of(double x) const
   if (!(x > 0)) return 0;
   if (x >= edge(bins - 1)) return bins - 1;
   auto bin = static_cast<std::size_t>(x / width_);
-  // The quotient may be rounded to the wrong side of an edge.
+  // Rounding may move the quotient across an edge.
   if (x < edge(bin)) --bin;
   if (x >= edge(bin + 1)) ++bin;
   return bin;

@@ -14,8 +14,8 @@
 
 namespace grseg {
 
-/// Mean normal force of the contacts of a layer, of each pair type and of all contacts between
-/// mobile grains. Only contacts that bear a force count, in the layer of the contact point.
+/// Mean normal force of the contacts with their contact point in a layer, by pair type and over all
+/// contacts between mobile grains. Contacts without a force are ignored.
 template <int D>
 class MeanNormalForce {
  public:
@@ -23,7 +23,7 @@ class MeanNormalForce {
 
   void add(const Grains& grains, const Frame<D>& frame);
   void merge(const MeanNormalForce& others);
-  /// N; NaN without contacts.
+  /// Mean normal force, N; NaN without contacts.
   double of(std::size_t layer, PairType type) const;
   double between_grains(std::size_t layer) const;
 
@@ -36,18 +36,18 @@ class MeanNormalForce {
   std::vector<std::array<Sum, pair_types>> sums_;
 };
 
-/// By which mean of the same layer the normal force of a contact is divided.
+/// Mean force <f_n> by which the normal force of a contact is divided.
 enum class ForceUnit {
-  layer,  ///< mean over all contacts between mobile grains
-  type,   ///< mean over the contacts of its own pair type
+  layer,  ///< mean over all contacts between mobile grains in the layer
+  type,   ///< mean over the contacts of the same pair type in the layer
 };
 inline constexpr Choice<ForceUnit> force_units[] = {{"layer", ForceUnit::layer},
                                                     {"type", ForceUnit::type}};
 
-/// Distribution of x = f_n/<f_n> by pair type: counts of contacts in bins of x, per frame, the last
-/// bin open above. The frames of a window are read twice, first for the mean, then for the counts.
-/// Where 1 is a multiple of the bins' width, a bin begins exactly at 1: from there on lie the
-/// strong contacts (Radjai et al. 1998).
+/// Histogram of x = f_n/<f_n> by pair type: numbers of contacts per frame in bins of x; the last
+/// bin has no upper edge. The frames of a window are read twice, first for the mean, then for the
+/// histogram. If 1 is a multiple of the bins' width, a bin begins exactly at 1, so that strong
+/// contacts (x > 1, Radjai et al. 1998) have bins of their own.
 template <int D>
 class ForceDistribution {
  public:
@@ -64,12 +64,13 @@ class ForceDistribution {
   void merge(const ForceDistribution& others);
   std::size_t layers() const { return counts_.size(); }
 
-  /// x0 and x1, the edges (x1 is inf for the last bin); n_*, counts per frame; P_*, their density,
-  /// so that the sum of P (x1 - x0) is the share below the open bin; tail_*, the share of contacts
-  /// with x >= x0. P is 0 in the open bin; P and tail are NaN without contacts.
+  /// Columns: x0 and x1, the edges of the bin (x1 is inf for the last one); n_*, contacts per
+  /// frame; P_*, the probability density, such that the sum of P (x1 - x0) is the share of contacts
+  /// below the last bin; tail_*, the share of contacts with x >= x0. P is 0 in the last bin. P and
+  /// tail are NaN without contacts.
   static std::vector<std::string> columns();
-  /// One row per bin, of a layer and of the whole bed, where each contact counts in units of its
-  /// own layer.
+  /// One row per bin, for a layer or for the whole bed. In the whole bed, f_n is still divided by
+  /// the mean of its own layer.
   std::vector<std::vector<double>> rows(std::size_t layer) const { return rows(counts_[layer]); }
   std::vector<std::vector<double>> bed_rows() const;
 

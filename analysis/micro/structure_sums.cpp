@@ -11,10 +11,10 @@ namespace grseg {
 namespace {
 
 constexpr std::array<const char*, 2> species_names{"S", "L"};
-// As in the table of grseg-stress.
+// Names of stress sums by pair type, as in tables of grseg-stress.
 constexpr std::array<const char*, pair_types> stress_names{"A_SS", "M", "A_LL", "A_Sb", "A_Lb"};
 
-/// The name of a column: stem, in which whose name replaces {}, component and unit.
+/// A column's name: a stem, in which a species or pair type replaces {}, a component, and a unit.
 struct ColumnName {
   const char* stem;
   const char* component = "";
@@ -23,7 +23,7 @@ struct ColumnName {
 
 constexpr std::array<const char*, 3> vector_components{"x", "y", "z"};
 
-/// Calls use(name, whose, number) with all components of a tensor.
+/// Calls use(name, whose, number) for each component of a tensor; `whose` replaces {} in the name.
 template <class Tensor, class Use>
 void visit_tensor(Tensor& t, const char* stem, const char* unit, const char* whose, const Use& use)
 {
@@ -62,8 +62,8 @@ void visit_pair(Sums& sums, const char* whose, const char* stress, const Use& us
   visit_tensor(sums.stress, "{}", "[N m]", stress, use);
 }
 
-/// All sums in the order of the table: use(name, whose, number). A new sum is added here and as a
-/// member; writing and reading follow.
+/// Calls use(name, whose, number) for each sum, in the order of the table. A new sum needs a member
+/// and a line here; code that writes and reads tables uses this function.
 template <class Sums, class Use>
 void visit(Sums& sums, const Use& use)
 {
@@ -177,7 +177,7 @@ bool is_base(PairType type)
   return type == PairType::Sb || type == PairType::Lb;
 }
 
-/// The large grain's share of a mixed contact by size, r_L/(r_L + r_S).
+/// The large grain's share of a mixed contact under the rule `size`, r_L/(r_L + r_S).
 template <int D>
 double share_by_size(const Grains& grains, const ContactList<D>& list, std::size_t contact)
 {
@@ -187,12 +187,12 @@ double share_by_size(const Grains& grains, const ContactList<D>& list, std::size
   return r_large / (grains.radius[i] + grains.radius[j]);
 }
 
-/// The contacts between mobile grains of one layer in one frame.
+/// Number and sum of f_n (N) of the contacts between mobile grains of one layer in one frame.
 struct LayerForce {
   double contacts = 0, normal = 0;
 };
 
-/// The tangential part of a force as FabricSums adds it: f_t, or in three dimensions a vector.
+/// Tangential part of a force for FabricSums::add(): f_t, or in three dimensions a vector, N.
 template <int D>
 typename FabricSums<D>::Tangential tangential_part(const Vector<D>& force,
                                                    const ForceParts<D>& parts)
@@ -203,7 +203,7 @@ typename FabricSums<D>::Tangential tangential_part(const Vector<D>& force,
     return force - parts.f_n * parts.n;
 }
 
-/// A contact between mobile grains and the layer it belongs to.
+/// A contact between mobile grains: its layer, pair type and normal force (N).
 struct Located {
   std::size_t layer;
   PairType type;

@@ -26,7 +26,7 @@ double number_or_unknown(const Table& table, const std::string& key)
   return table.header_text(key) == "unknown" ? no_number : table.header_number(key);
 }
 
-/// Windows of one run differ in their beginning.
+/// Sets `bed_height` of all rows. Windows are recognized by their begin.
 template <int D>
 void set_bed_heights(std::vector<SumsRow<D>>& rows)
 {
@@ -42,14 +42,14 @@ void set_bed_heights(std::vector<SumsRow<D>>& rows)
 enum class SumKind { any, not_negative, may_be_nan };
 
 struct SumColumn {
-  std::optional<std::size_t> column;  // none: not kept
+  std::optional<std::size_t> column;  // number of the column; nothing if it was not kept
   SumKind kind;
 };
 
 SumKind kind_of(const std::string& name)
 {
   const auto begins = [&](const char* word) { return name.starts_with(word); };
-  if (begins("n_slide")) return SumKind::may_be_nan;  // without friction
+  if (begins("n_slide")) return SumKind::may_be_nan;  // if friction is unknown
   if (begins("area_") || begins("volume_") || begins("grains_") || begins("ends_") || begins("n_"))
     return SumKind::not_negative;
   return SumKind::any;
@@ -59,7 +59,7 @@ double value_of(const Table& table, std::size_t row, const SumColumn& sum)
 {
   if (!sum.column) return no_number;
   if (sum.kind == SumKind::may_be_nan) return table.rows[row][*sum.column];
-  constexpr double round_off = 1e-15;  // m^2 or m^3, of areas and volumes
+  constexpr double round_off = 1e-15;  // tolerated negative area or volume, m^2 or m^3
   return sum.kind == SumKind::any ? finite_cell(table, row, *sum.column)
                                   : non_negative_cell(table, row, *sum.column, round_off);
 }
@@ -70,7 +70,7 @@ RunConstants read_run_constants(const Table& table)
 {
   const auto species = species_of(table);
   if (species.size() != 2)
-    throw FormatError(fmt::format("{}: grseg-derive compares two species, and the table has {}",
+    throw FormatError(fmt::format("{}: grseg-derive compares two species, but the table has {}",
                                   table.name, species.size()));
   const bool densities_differ = table.has_header("mean_density");
   return {.small_diameter = species[0].diameter,
@@ -114,7 +114,7 @@ template std::vector<SumsRow<3>> read_sums_rows(const Table&);
 
 namespace {
 
-/// Up to round-off: 1.4 d_S of 5 mm are 7 mm, but for the last bits.
+/// True if two rows have the same layer up to round-off; 1.4 times 5 mm is not exactly 7 mm.
 template <int D>
 bool same_layer(const SumsRow<D>& a, const SumsRow<D>& b)
 {
@@ -122,7 +122,7 @@ bool same_layer(const SumsRow<D>& a, const SumsRow<D>& b)
   return std::abs(a.bottom - b.bottom) <= round_off && std::abs(a.top - b.top) <= round_off;
 }
 
-/// The mean, weighted by frames.
+/// Mean of rows, weighted by frames.
 template <int D>
 SumsRow<D> merged(const std::vector<SumsRow<D>>& rows)
 {
@@ -145,12 +145,12 @@ SumsRow<D> merged(const std::vector<SumsRow<D>>& rows)
   return mean;
 }
 
-/// Rows with the same key are merged; the whole bed has its own, after all layers.
+/// Key of a row; rows with equal keys are merged. The whole bed has the largest key and comes last.
 template <int D>
 double pool_key(const SumsRow<D>& row, Pool pool)
 {
   if (pool == Pool::composition) return std::min(std::floor(10 * row.sums.phi_large()), 9.0);
-  // The number of the layer, which round-off does not change.
+  // The number of the layer, rounded, so that round-off does not change it.
   return row.is_bed() ? std::numeric_limits<double>::infinity()
                       : std::round(row.bottom / (row.top - row.bottom));
 }
@@ -198,7 +198,7 @@ constexpr Choice<ForceAverage> average_words[] = {{"contacts", ForceAverage::con
 constexpr Choice<Pool> pool_words[] = {
     {"none", Pool::none}, {"windows", Pool::windows}, {"composition", Pool::composition}};
 
-/// The others need sums that are not in this table.
+/// True if grseg-derive offers the rule; other rules need sums that its tables do not have.
 bool is_known(const RuleDefinition& rule)
 {
   return !rule.sum || rule.sum == PairSum::by_size;
@@ -213,12 +213,12 @@ PartitionRule rule_of(const DerivedOptions& options)
 {
   const auto rule = parse_rule(options.partition);
   if (!is_known(rule.definition()))
-    throw UsageError(fmt::format("--partition {}: grseg-derive takes {}", rule.name(),
+    throw UsageError(fmt::format("--partition {}: grseg-derive offers {}", rule.name(),
                                  list_of_words(known_rules())));
   return rule;
 }
 
-/// Heights: a profile has all layers, what pools them those inside the bed.
+/// Value of --heights; by default only layers inside the bed are pooled, but a profile has all.
 std::string heights_of(const DerivedOptions& options)
 {
   if (!options.rows.heights.empty()) return options.rows.heights;
@@ -237,12 +237,12 @@ void require_same_constants(const Table& first, const Table& other)
                           "friction", "layer", "composition"})
     if (!same_setting(first.header_text(key), other.header_text(key)))
       refuse_difference(first, other, key);
-  for (const char* key : {"gravity_z", "species", "mean_density"})  // not in all tables
+  for (const char* key : {"gravity_z", "species", "mean_density"})  // some tables lack them
     if (!same_setting(header_or(first, key, ""), header_or(other, key, "")))
       refuse_difference(first, other, key);
 }
 
-/// Adds the settings of the first table, and the options of the derivation.
+/// Adds the settings of the first table and the options of grseg-derive.
 void add_settings(Header& header, const Table& first, const DerivedOptions& options)
 {
   for (const auto& line : settings_of(first))
@@ -274,21 +274,21 @@ void DerivedOptions::add_to(po::options_description& options)
 {
   auto add = options.add_options();
   add("force", word_option(&force, words_of(force_words)),
-      "force of a contact: modulus, or normal (its normal part)");
+      "force of a contact: modulus (of the force vector) or normal (its normal component)");
   add("average", word_option(&average, words_of(average_words)),
-      "means f_S and f_L of the force: over contacts (with at least one grain of the species, each "
-      "counted once) or over ends (contact ends on its grains)");
+      "mean forces f_S and f_L are over contacts (with at least one grain of the species, each "
+      "counted once) or over ends (contact ends on grains of the species)");
   const auto rules = list_of_words(known_rules());
   add("partition", word_option(&partition, known_rules()),
-      ("the large grain's share of a mixed contact in P_S and P_L: " + rules).c_str());
+      ("large grain's share of a mixed contact in the pressures P_S and P_L: " + rules).c_str());
   add("pool", word_option(&pool, words_of(pool_words)),
-      "rows to merge: none, windows (each layer over all windows) or composition (layers by "
-      "phi_L)");
+      "rows to merge: none, windows (each layer over all windows) or composition (layers of "
+      "similar phi_L)");
   add("depth", po::value(&depth)->value_name("LENGTH"),
-      "forces are divided by the pressure at depth H - y; this is H (default: height of the bed)");
+      "height H: forces are divided by the pressure at depth H - y (default: height of the bed)");
   add("heights", po::value(&rows.heights)->value_name("y0:y1"),
-      fmt::format("layers that take part: {} (default: inside of layers that are pooled by "
-                  "composition, else all)",
+      fmt::format("layers to use: {} (default: inside with --pool composition, otherwise "
+                  "all)",
                   heights_help)
           .c_str());
   rows.add_times_to(options);
@@ -297,7 +297,7 @@ void DerivedOptions::add_to(po::options_description& options)
 void DerivedOptions::check() const
 {
   choose(pool, "--pool", pool_words);
-  if (!rows.heights.empty()) rows.check();
+  RowFilter{rows.begin, rows.end, heights_of(*this)}.check();
   choose(force, "--force", force_words);
   choose(average, "--average", average_words);
   rule_of(*this);
@@ -328,7 +328,7 @@ Table derived_table(const std::vector<Table>& tables, const DerivedOptions& opti
     }
   });
   if (table.rows.empty())
-    throw RunError("no row is left; choose another --begin, --end or --heights");
+    throw RunError("no row remains; choose another --begin, --end or --heights");
   return table;
 }
 

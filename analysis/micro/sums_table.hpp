@@ -13,65 +13,65 @@
 
 namespace grseg {
 
-/// The table of sums that grseg-micro writes, read again by grseg-derive.
+/// Functions by which grseg-derive reads and merges tables of grseg-micro.
 
-/// A row of the table, or several merged; y0 = y1 = NaN for the whole bed and where different
+/// A row of the table, or several merged rows. y0 = y1 = NaN for the whole bed, and if different
 /// layers were merged.
 template <int D>
 struct SumsRow : LayerKey {
   StructureSums<D> sums;
-  BedHeights heights;  // means per frame; NaN in layers
-  double bed_height;   // m, of the whole bed in the same window
+  BedHeights heights;  // mean heights over frames, m; NaN in rows of layers
+  double bed_height;   // height of the whole bed in the same window, m
 
   bool is_bed() const { return heights.bed == heights.bed; }
 };
 
 /// Constants of the run, from the header of the table.
 struct RunConstants {
-  double small_diameter, large_diameter;  // m, nominal
-  double gravity_x, gravity_y;            // m/s^2
-  double density, friction;               // kg/m^2 or kg/m^3, and 1; NaN where unknown
-  double gravity_z = 0;                   // m/s^2, in three dimensions
-  double mean_density = density;          // of all grains; `density` is of the small grains
+  double small_diameter, large_diameter;  // nominal diameters, m
+  double gravity_x, gravity_y;            // components of gravity, m/s^2
+  double density, friction;               // density of small grains, kg/m^D; NaN if unknown
+  double gravity_z = 0;                   // component in three dimensions, m/s^2
+  double mean_density = density;          // density of all grains, kg/m^2 or kg/m^3
 };
 
-/// Diameters are of the two species, or with --group of the two groups. FormatError where a line is
-/// missing or its value is not a number; density and friction may be "unknown".
+/// Constants from the header of a table. With --group they have the diameters of the two groups.
+/// Throws FormatError unless each is a number; only density and friction may be "unknown".
 RunConstants read_run_constants(const Table& table);
-/// FormatError, naming the place, where a column is missing or a number is not finite that must be.
+/// The rows of a table. Throws FormatError, with the place, if a column is missing or a number is
+/// not finite; some columns may be NaN.
 template <int D>
 std::vector<SumsRow<D>> read_sums_rows(const Table& table);
 
-/// The rows in windows and layers that take part, however solid the layers are.
+/// The rows in windows and layers that the filter selects, for any solid fraction of layers.
 template <int D>
 std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& filter,
                                  LengthUnits units);
 
-/// Which rows are merged.
+/// Rows that are merged into one.
 enum class Pool {
   none,
-  windows,      ///< each layer, and the whole bed, over all windows and tables
-  composition,  ///< layers of all windows and tables by phi_L, in ten bins of equal width
+  windows,      ///< all windows and tables, separately for each layer and for the whole bed
+  composition,  ///< layers of all windows and tables in the same of ten equal bins of phi_L
 };
-/// Means weighted by frames. With `composition` the whole bed's rows and empty layers are left out.
+/// Merged rows: means weighted by frames. `composition` leaves out empty layers and the whole bed.
 template <int D>
 std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
 
-/// Options of grseg-derive, as given on the command line.
+/// Options of grseg-derive.
 struct DerivedOptions {
   std::string force = "modulus", average = "contacts", partition = "size", pool = "none", depth;
-  RowFilter rows{.heights = ""};  // "": by `pool`
+  RowFilter rows{.heights = ""};  // heights = "": the default depends on `pool`
 
   /// Adds --force --average --partition --pool --depth --heights --begin --end.
   void add_to(po::options_description& options);
-  /// UsageError where a word is unknown, before any table is read.
+  /// Throws UsageError if a word is unknown, before any table is read.
   void check() const;
 };
 
-/// The quantities that follow from tables of grseg-micro (derived_quantities.hpp), with
-/// `provenance` as the first lines of its header and the settings of the first table behind it.
-/// UsageError where options have no meaning or tables of different grains are given together;
-/// RunError where no row is left.
+/// Table of the quantities that follow from tables of grseg-micro (derived_quantities.hpp). Its
+/// header has the lines `provenance`, then the settings of the first table. Throws UsageError if an
+/// option is invalid or if the tables have different grains, and RunError if no row remains.
 Table derived_table(const std::vector<Table>& tables, const DerivedOptions& options,
                     const Header& provenance);
 

@@ -10,11 +10,11 @@
     print(grseg.Points(sums).fit("size").B)
 
 Units are SI; x points down the slope, y up from the base, z across; D is 2 (discs) or 3 (spheres);
-stress is in N/m or Pa, positive in compression (formats/README.md). Sums agree to round-off with
-grseg-stress and grseg-kinetic and their default assignment, estimates with grseg-fit.
+stress is in N/m or Pa, positive in compression (formats/README.md). Words: docs/glossary.md. Sums agree
+to round-off with grseg-stress and grseg-kinetic with their default --assign, estimates with grseg-fit.
 
-The tools do more: grseg-check RUN.h5 verifies digests, which are NOT verified here, nor is the checksum
-in the last line of a table; grseg-fit has intervals over several flows; --assign, --bins, --group.
+This module does NOT verify the digests of runs (use grseg-check RUN.h5) or the checksum in the last line
+of a table. It has no intervals over several flows (grseg-fit has) and no --assign, --bins or --group.
 
 A file that is damaged, unfinished or not made by grseg raises grseg.Error, a wrong argument ValueError.
 """
@@ -35,51 +35,52 @@ __all__ = ["Run", "Frame", "Contacts", "Species", "Window", "Table", "Points", "
 
 
 class Error(Exception):
-    """A sentence that names the file, the place and the fault, and a remedy."""
+    """Raised for a file that cannot be used; the message names file, place, fault and remedy."""
 
 
 Species = collections.namedtuple("Species", "name diameter")
 Species.__doc__ = "Name and nominal diameter (m; 0: unknown) of a mobile species."
 
 Window = collections.namedtuple("Window", "begin end frames")
-Window.__doc__ = "Frames that are averaged together: from begin to end (s), with their numbers."
+Window.__doc__ = "Frames that are averaged together: begin and end (s) of the window, and the numbers of its frames."
 
 
 # -------------------------------------------------------------------------------------- reading
 
-_FOREIGN = "not a run of grseg, or damaged; grseg-import makes runs of other programs' archives"
-_UNFINISHED = ("the run has not ended, or its end was lost: give unfinished=True to read the frames that it has "
-               "(grseg-check tells whether they are whole)")
-_OF_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)  # that h5py raises
-_ROWS_OF_BLOCK = 1 << 16  # contacts or grains that are read at a time
+_FOREIGN = "not a run of grseg, or damaged; grseg-import converts archives of other programs"
+_UNFINISHED = ("the run has not ended, or its end was lost: pass unfinished=True to read the frames that it has "
+               "(grseg-check reports whether they are intact)")
+# Exceptions that h5py raises for damaged files.
+_OF_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)
+_ROWS_OF_BLOCK = 1 << 16  # number of contacts or grains that are read at a time
 
 
 class Run:
     """A trajectory file of version 1.0, open for reading.
 
     path         name of the file
-    version      version of the file, "1.0"
-    finished     True if its program came to the end and closed it
+    version      version of the file format, "1.0"
+    finished     True if the program that wrote the file reached its end and closed it
     dimension    D, 2 or 3
-    species      the mobile Species in order of size; number k stands for species[k]
-    radius, mass, id [N]    of the grains (m, kg), the same in all frames
-    kind [N]     number of a grain's species, len(species) for boundary grains
-    mobile [N]   True for grains of the flow, False for fixed ones and the boundary
-    length, width           of the cell along x and z (m); width is None in two dimensions
-    periodic     True for each axis along which the cell is periodic
-    steps, times [F]        numbers of time steps, and times (s), of the frames
+    species      mobile Species in order of size; a grain of kind k belongs to species[k]
+    radius, mass, id [N]    radius (m), mass (kg) and name of each grain, the same in all frames
+    kind [N]     index of each grain's species; len(species) for boundary grains
+    mobile [N]   True for grains of the flow, False for fixed grains and the boundary
+    length, width           lengths of the cell along x and z (m); width is None in two dimensions
+    periodic [D] True for each axis along which the cell is periodic
+    steps, times [F]        numbers of the time steps of the frames, and times of the frames (s)
     step         length of a time step (s)
-    gravity [D]  at t = 0 (m/s^2); `gravity_at` follows a slope that changes
-    small_diameter, large_diameter    nominal, of the first and last species (m)
-    parameters   all of /parameters by name: float, array or text
-    history      one line per program that touched the data
-    observables  names for `observable`
-    has_force    True if frames have the force on each grain
-    digest       the content digest of the run, as in tables; not verified here
+    gravity [D]  gravity at t = 0 (m/s^2); see `gravity_at` for a slope that changes
+    small_diameter, large_diameter    nominal diameters of the first and the last species (m)
+    parameters   all entries of /parameters by name: float, array or text
+    history      one line per program that wrote or changed the data
+    observables  names that `observable` accepts
+    has_force    True if frames include the force on each grain
+    digest       content digest of the run, as in tables; it is not verified here
 
-    A run that goes on, or was killed, is refused unless `unfinished`: then the frames that were
-    committed are read. (If such a file is damaged, too, HDF5 may wait for ever for its writer: let
-    grseg-check read it first.) Close a run by `with`, or by `close`.
+    A run that still goes on, or was killed, raises Error. With `unfinished` its complete frames are
+    read instead. (If such a file is also damaged, HDF5 may wait for ever for its writer: check it
+    with grseg-check first.) Close a run with a `with` statement, or with `close`.
     """
 
     def __init__(self, path, unfinished=False):
@@ -110,7 +111,7 @@ class Run:
         return self.frames()
 
     def __getitem__(self, number):
-        """The Frame of this number; negative numbers count from the end."""
+        """The Frame with this number; negative numbers count from the end."""
         if not -len(self) <= number < len(self):
             raise IndexError(f"{self.path}: frame {number} of {len(self)}")
         number %= len(self)
@@ -120,16 +121,16 @@ class Run:
         self._file.close()
 
     def frames(self, begin=None, end=None, stride=1):
-        """Yields the frames with begin <= t < end (s; None: all), one in `stride`, one by one.
+        """Yields the frames with begin <= t < end (s; None: no limit), every `stride`-th one.
 
-        A field is read when it is first used, for some frames at a time, so that memory does not grow
-        with the run."""
+        A field is read when it is first used, for a few frames at a time, so that memory does not grow
+        with the length of the run."""
         for block in self._blocks(self._numbers(begin, end, stride)):
             for k in range(block.last - block.first):
                 yield Frame(block, k)
 
     def gravity_at(self, time):
-        """Gravity [D] at `time` (s), m/s^2; the same at all times where the slope is fixed."""
+        """Gravity [D] at `time` (s), m/s^2; constant if the slope is fixed."""
         angle = math.radians(self.parameters.get("slope_rate", 0.0)) * max(time, 0.0)
         turned = self.gravity.copy()
         turned[0] = math.cos(angle) * self.gravity[0] - math.sin(angle) * self.gravity[1]
@@ -137,7 +138,7 @@ class Run:
         return turned
 
     def observable(self, name):
-        """One number per frame [F], in SI units."""
+        """The observable `name`: one number per frame [F], in SI units."""
         if name not in self.observables:
             raise KeyError(f"{self.path}: no observable {name}; it has {', '.join(self.observables)}")
         return self._read(f"observables/{name}/value", 0, len(self))
@@ -147,30 +148,30 @@ class Run:
         return _metres(text, self.small_diameter, self.large_diameter)
 
     def windows(self, length=1.25, begin=None, end=None, stride=1):
-        """The windows that the tools make, a list of Window: each of `length` (s), one after the other from
-        `begin` on (default: t = 0, or the first frame if that is later), as far as the run fills them up to
-        `end`. "all" is one window over all frames used."""
+        """A list of the Windows that the tools use. They have the `length` (s) and follow one another from
+        `begin` (default: t = 0, or the first frame if that is later) to `end`; windows that the run does not
+        fill are left out. length="all" is one window over all frames used."""
         return _cut_into_windows(self, length, begin, end, stride)[1]
 
     def contact_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, power=None):
-        """The sums of force (x) branch by layer, window and pair of species, as a Table with the
-        columns of grseg-stress: areas or volumes of the grains, numbers of contacts and tensors, N m,
-        means per frame. A contact counts where its grains touch. With `power`, the Q of the rule
-        power:Q, also Mpower."""
+        """Sums of force (x) branch, the tensor product, by layer, window and pair of species. The Table
+        has the columns of grseg-stress: areas or volumes of the grains, numbers of contacts, and tensors
+        (N m), all as means per frame. A contact is counted in the layer of its contact point. If `power`
+        is given, the Q of the rule power:Q, the Table has Mpower, too."""
         return self._tabulate(functools.partial(_contact_sums, self, power=power), _stress_columns(self, power), layer,
                               (window, begin, end, stride), _stress_header(power))
 
     def kinetic_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, mean="profile"):
-        """The sums of m dv (x) dv by layer, window and species, as a Table with columns of
-        grseg-kinetic: masses, mean flow, K (J), Kr of rotation (J), numbers of grains. dv is the velocity
-        less `mean`: "profile", a fine profile over height, or "layer", the mean of the layer; both are
-        means over the window, whose frames are read twice."""
+        """Sums of m dv (x) dv by layer, window and species, as a Table with columns of grseg-kinetic:
+        masses, mean flow, K (J), Kr of rotation (J), numbers of grains. dv is the velocity minus a mean
+        velocity: a fine profile over height (mean="profile") or the mean of the layer (mean="layer").
+        Both means are over the window, whose frames are read twice."""
         if mean not in ("profile", "layer"):
-            raise ValueError(f"mean = {mean!r}: profile or layer; grseg-kinetic knows more")
+            raise ValueError(f"mean = {mean!r}: write profile or layer; grseg-kinetic has more choices")
         return self._tabulate(functools.partial(_kinetic_sums, self, mean=mean), _kinetic_columns(self), layer,
                               (window, begin, end, stride), {"mean": mean})
 
-    # Functions from here on are used in this file alone.
+    # Functions below are used in this file only.
 
     def _fail(self, why):
         raise Error(f"{self.path}: {why}")
@@ -181,7 +182,7 @@ class Run:
                 head = file.read(12)
         except OSError as error:
             self._fail(error.strerror)
-        # The superblock is marked while a writer has the file open in SWMR mode, and after it was killed.
+        # The superblock has this mark while a program writes the file in SWMR mode, and after that program was killed.
         has_writer = head[:9] == b"\x89HDF\r\n\x1a\n\x03" and head[11:] != b"" and head[11] & 5 == 5
         if has_writer and not unfinished:
             self._fail(_UNFINISHED)
@@ -190,10 +191,10 @@ class Run:
         except _OF_DAMAGE as error:
             if "unable to lock" in str(error):
                 self._fail("is being written by a run; wait until it has ended, or read a copy")
-            return self._fail("is not an HDF5 file, or is truncated or damaged; take a copy that is whole")
+            return self._fail("is not an HDF5 file, or is truncated or damaged; use an intact copy")
 
     def _dataset(self, path, rank, kinds="f"):
-        """A dataset with this number of dimensions, and a type of one of these kinds of numpy."""
+        """The dataset at `path`. Fails unless it has `rank` dimensions and one of numpy's type `kinds`."""
         try:
             dataset = self._file[path]
         except _OF_DAMAGE:
@@ -202,11 +203,11 @@ class Run:
             self._fail(f"/{path} is missing: {_FOREIGN}")
         if dataset.ndim != rank or dataset.dtype.kind not in kinds:
             self._fail(f"/{path} has {dataset.ndim} dimensions of type {dataset.dtype}, which "
-                       "formats/README.md does not know; grseg-check --deep tells more")
+                       "formats/README.md does not list; grseg-check --deep reports more")
         return dataset
 
     def _read(self, path, first, last):
-        """Rows [first, last) of a dataset: reals as float64, integers as int64."""
+        """Rows [first, last) of a dataset: real numbers as float64, integers as int64."""
         try:
             if path not in self._datasets:
                 self._datasets[path] = self._file[path]
@@ -214,8 +215,8 @@ class Run:
         except _OF_DAMAGE:
             rows = ()
         if len(rows) != last - first:
-            self._fail(f"/{path}: rows {first} to {last - 1} cannot be read: the file is damaged; take a "
-                       "copy that is whole, or leave their frames out with begin or end")
+            self._fail(f"/{path}: rows {first} to {last - 1} cannot be read: the file is damaged; use an "
+                       "intact copy, or leave their frames out with begin or end")
         rows = rows.astype(np.float64 if rows.dtype.kind == "f" else np.int64, copy=False)
         rows.flags.writeable = False
         return rows
@@ -249,7 +250,7 @@ class Run:
             self._fail(f"/h5md/modules/grseg has no version: {_FOREIGN}")
         self.version = f"{major}.{minor}"
         if self.version != "1.0":
-            self._fail(f"/h5md/modules/grseg has version {self.version}, and this grseg.py reads 1.0; take the "
+            self._fail(f"/h5md/modules/grseg has version {self.version}, and this grseg.py reads 1.0; use the "
                        "grseg.py of the grseg that wrote the file")
 
     def _read_parameters(self):
@@ -297,7 +298,7 @@ class Run:
         if not ((self.kind >= 0) & (self.kind <= len(self.species))).all():
             self._fail("/particles/grains/species names a species that is not listed; the file is damaged")
         self.mobile = (self.kind < len(self.species)) & (fixed == 0)
-        # Kind and radius of the second grain of a contact; the last entry, at -1, is for straight walls.
+        # Kind and radius of the second grain of a contact by row; the last entry (index -1) is for straight walls.
         self._partner_kind = np.append(np.where(self.mobile, self.kind, len(self.species)), len(self.species))
         self._partner_radius = np.append(self.radius, np.nan)
 
@@ -322,7 +323,7 @@ class Run:
             self._fail("/particles/grains/position: steps or times do not increase; the file is damaged")
 
     def _read_end(self):
-        """Reads the digest, and the seal of a run that was closed."""
+        """Reads the digest, and the seal, which only a run that was closed has."""
         digests = self._dataset("grseg/digest", 1, "u")
         if len(digests) < len(self):
             self._fail(f"/grseg/digest has no entry for frame {len(self) - 1}; the file is damaged")
@@ -331,11 +332,11 @@ class Run:
         seal = [int(number) for number in self._dataset("grseg/seal", 1, "u")[:]]
         self.finished = any(seal)
         if self.finished and seal[:3] != [len(self), int(self._offset[-1]), last]:
-            self._fail("/grseg/seal names other frames than the file holds: it is damaged; take a copy that is whole")
+            self._fail("/grseg/seal does not agree with the frames: the file is damaged; use an intact copy")
 
     def _numbers(self, begin, end, stride):
         if stride < 1:
-            raise ValueError(f"stride = {stride}: at least 1")
+            raise ValueError(f"stride = {stride}: write 1 or more")
         first = 0 if begin is None else np.searchsorted(self.steps, _whole_steps(begin, self.step))
         last = len(self) if end is None else np.searchsorted(self.steps, _whole_steps(end, self.step))
         return range(int(first), int(last), stride)
@@ -353,7 +354,7 @@ class Run:
             first = number
 
     def _tabulate(self, sums_of_window, columns, layer, window, settings):
-        np.empty(1 << 21)  # once 16 MB have been freed, glibc keeps what temporaries need: twice as fast
+        np.empty(1 << 21)  # after this, glibc reuses freed memory up to 16 MB for temporaries: twice as fast
         layers = _Layers(self.metres(layer), self.length, self.width, self.path)
         length, windows = _cut_into_windows(self, *window)
         rows = []
@@ -383,7 +384,7 @@ def _metres(text, small_diameter, large_diameter):
 
 
 class _Block:
-    """Frames [first, last) of a run. A field is read and checked when it is first used, then kept, read-only."""
+    """Frames [first, last) of a run. A field is read and checked when it is first used, and stored read-only."""
 
     def __init__(self, run, first, last):
         self.run, self.first, self.last = run, first, last
@@ -399,7 +400,7 @@ class _Block:
         return self._field(f"particles/grains/{name}/value", self.first, self.last, self._require_finite_grains)
 
     def contacts(self, name):
-        """A field of the contacts [C, ...], frame by frame."""
+        """A field of the contacts [C, ...], in the order of frames."""
         return self._field(f"grseg/contacts/{name}", self.rows.start, self.rows.stop,
                            self._require_rows if name in ("i", "j") else self._require_finite)
 
@@ -412,12 +413,12 @@ class _Block:
 
     @functools.cached_property
     def frame_of_contact(self):
-        """The frame of each contact [C], as a number in the block."""
+        """Index of each contact's frame in the block [C]."""
         return np.repeat(np.arange(self.last - self.first), np.diff(self.offset))
 
     @functools.cached_property
     def heights(self):
-        """y of all grains, frame by frame [F N], m."""
+        """Heights y of all grains [F N], m, in the order of frames."""
         return self.grains("position")[..., 1].ravel()
 
     @functools.cached_property
@@ -427,7 +428,7 @@ class _Block:
 
     @functools.cached_property
     def mobile_grains(self):
-        """Places in `heights`, and rows, of all mobile grains that are present, frame by frame."""
+        """Indices in `heights` and rows of all mobile grains that are present, in the order of frames."""
         place = np.flatnonzero(self.present)
         return place, np.tile(np.arange(len(self.run.radius)), self.last - self.first).take(place)
 
@@ -442,7 +443,7 @@ class _Block:
             self._fail_at(self._place(np.argwhere(~good)[0][0]), path)
 
     def _require_finite_grains(self, values, path):
-        """Fails where a grain is not finite; absent grains have NaN in all components."""
+        """Fails if a value is not finite; absent grains may have NaN in all components."""
         good = np.isfinite(values).reshape(*values.shape[:2], -1)
         if good.all():
             return
@@ -452,8 +453,8 @@ class _Block:
             self._fail_at(f"grain {grain} of frame {self.first + frame}", path)
 
     def _fail_at(self, place, path):
-        self.run._fail(f"/{path} is not a finite number in {place}; the frame is damaged: take a copy that is "
-                       "whole, or leave the frame out with begin or end")
+        self.run._fail(f"/{path} is not a finite number in {place}; the frame is damaged: use an intact "
+                       "copy, or leave the frame out with begin or end")
 
     def _require_rows(self, values, path):
         grains = len(self.run.radius)
@@ -471,18 +472,18 @@ class _Block:
 
 
 class Frame:
-    """A frame: one time step of a run, or an instant of an imported one. Time, positions and contacts are
-    taken in the middle of the step, velocities at its end. Arrays are read-only.
+    """A frame: the state of a run at one time. Time, positions and contacts are those in the middle of a
+    time step, velocities those at its end. In an imported run all are of one instant. Arrays are read-only.
 
-    number, step, time (s)
-    position [N, D]             m, wrapped into the cell
-    image [N, D]                periods to add to it
-    velocity [N, D]             m/s
+    number, step, time          number of the frame in the run, number of its time step, time (s)
+    position [N, D]             positions of the centres, wrapped into the cell, m
+    image [N, D]                number of cell lengths to add to the position along each axis
+    velocity [N, D]             velocities, m/s
     angular_velocity [N], in three dimensions [N, 3]    1/s, counter-clockwise, right-handed
-    force [N, D]                N, m (v_after - v_before)/h: contact forces and weight; not in all imported runs
-    present [N]                 True for mobile grains that are present: all of them, unless grains come and go
-    contacts                    Contacts
-    coordination() [N]          number of contacts of each grain that bear a force, base and walls included
+    force [N, D]                contact forces + weight, m (v_after - v_before)/h, N; not in all imported runs
+    present [N]                 True for mobile grains that exist in this frame: all, unless grains come and go
+    contacts                    Contacts of the frame
+    coordination() [N]          number of force-bearing contacts of each grain, base and walls included
     """
 
     def __init__(self, block, k):
@@ -507,17 +508,17 @@ class Frame:
 
 class Contacts:
     """The contacts of a frame. Some bear no force, and runs of contact dynamics also list pairs that may soon
-    touch: take means over the contacts that are `pushing`.
+    touch: take means over the contacts with `pushing` True.
 
-    i [C]            row of the first grain, a mobile one
-    j [C]            row of the second; j < 0: straight wall number -j-1
-    force [C, D]     N, ON i FROM j
-    branch [C, D]    m, x_i - x_j, nearest image; at a wall x_i less the contact point
-    gap [C]          m, negative where the two overlap
-    pushing [C]      True if they bear a force; the tools count only these
-    kind_i, kind_j [C]    numbers of their species; len(species) for base and walls
-    share_i [C]      part of the branch between the centre of i and the contact point; 1 at a wall
-    point [C, D]     m, the contact point: x_i - share_i branch
+    i [C]            row of the first grain, which is mobile
+    j [C]            row of the second grain; j < 0: straight wall number -j-1
+    force [C, D]     force ON i FROM j, N
+    branch [C, D]    x_i - x_j, nearest image, m; at a wall x_i minus the contact point
+    gap [C]          distance of the two surfaces, m; negative if they overlap
+    pushing [C]      True if the contact bears a force; the tools use only these contacts
+    kind_i, kind_j [C]    species indices of the two grains; len(species) for base and walls
+    share_i [C]      fraction of the branch between the centre of i and the contact point; 1 at a wall
+    point [C, D]     contact point x_i - share_i branch, m
 
     sigma = (1/V) sum of force (x) branch is positive in compression.
     """
@@ -552,15 +553,15 @@ def _share_of_first(run, i, j, gap):
 # ----------------------------------------------------------------------------- windows and layers
 
 def _whole_steps(time, step):
-    """A time in whole steps, nearest, so that round-off moves no frame across it."""
+    """The number of steps nearest to `time`; rounding keeps frames on their side of a limit despite round-off."""
     return int(math.copysign(math.floor(abs(time / step) + 0.5), time))
 
 
 def _longest_interval(run, gaps):
-    """Largest number of steps that a frame stands for: longest_interval() of analysis/frames/windows.cpp."""
+    """Largest number of steps that a frame represents; as longest_interval() of analysis/frames/windows.cpp."""
     gaps = sorted((int(gap) for gap in gaps), reverse=True)
     interval = 0
-    if "import_format" not in run.parameters:  # in imported runs it is only a mean
+    if "import_format" not in run.parameters:  # the interval of imported runs is only a mean
         interval = _whole_steps(run.parameters.get("frame_interval", 0.0), run.step)
     if interval > 0:
         found = next((gap for gap in gaps if gap <= interval), 0)
@@ -570,17 +571,17 @@ def _longest_interval(run, gaps):
 
 
 def _empty_part(steps, longest, begin, length):
-    """Number of steps in a window for which no frame stands; the time before the first frame counts as filled."""
+    """Number of steps in a window that no frame represents; the time before the first frame counts as represented."""
     before, inside = steps[steps <= begin], steps[(steps > begin) & (steps < begin + length)]
     filled = np.append(before[-1] + longest if len(before) else steps[0], inside + longest)
     return np.maximum(np.append(inside, begin + length) - np.maximum(filled, begin), 0).sum()
 
 
 def _cut_into_windows(run, length, begin, end, stride):
-    """The windows and their length, as cut_into_windows() of analysis/frames/windows.cpp makes them."""
+    """Length of the windows and list of windows, as in cut_into_windows() of analysis/frames/windows.cpp."""
     length = math.inf if length == "all" else length
     if not (length > 0 and stride >= 1):
-        raise ValueError(f"a window of {length} s, stride {stride}: they should be positive")
+        raise ValueError(f"a window of {length} s, stride {stride}: both must be positive")
     steps = run.steps
     if len(steps) == 0:
         run._fail("the run has no frames")
@@ -603,7 +604,7 @@ def _cut_into_windows(run, length, begin, end, stride):
     whole = last - first if length == math.inf else _whole_steps(length, run.step)
     if whole < used and length < math.inf:
         raise ValueError(f"a window of {length} s is shorter than the {used * run.step:g} s between the "
-                         f"frames of {run.path} that are used; give that, a longer one, or \"all\"")
+                         f"frames of {run.path} that are used; choose at least this length, or \"all\"")
     exact = whole * run.step
     width = length if abs(exact - length) < 1e-9 * exact else exact
     origin = begin if begin is not None and _whole_steps(begin, run.step) == first else first * run.step
@@ -617,18 +618,18 @@ def _cut_into_windows(run, length, begin, end, stride):
                  if first + n * whole > steps[0] - longest  # otherwise the run begins inside it
                  and (length == math.inf or _empty_part(steps, longest, first + n * whole, whole) <= 0.1 * whole)}
     if not frames_of:
-        run._fail(f"no window of {length} s is filled: frames used reach from {origin:g} s to {last * run.step:g} s; "
+        run._fail(f"no window of {length} s is filled: the frames used are from {origin:g} s to {last * run.step:g} s; "
                   "choose a shorter window, \"all\", or another begin and end")
     return width, [Window(origin + n * width, origin + (n + 1) * width, frames) for n, frames in frames_of.items()]
 
 
 class _Layers:
-    """Layers of thickness h: layer n is [n h, (n+1) h). The first layer also holds everything below it, the
-    last one of a frame everything above it (analysis/frames/layers.hpp)."""
+    """Layers of thickness h: layer n is [n h, (n+1) h). The first layer includes everything below it, and the
+    last layer of a frame everything above it (analysis/frames/layers.hpp)."""
 
     def __init__(self, thickness, length, width, path):
         if not 0 < thickness < math.inf:
-            raise ValueError(f"a layer of {thickness} m has no thickness; give e.g. 4dS")
+            raise ValueError(f"a layer of {thickness} m has no thickness; write e.g. 4dS")
         self.h, self.path = thickness, path
         self.volume = thickness * length * (1.0 if width is None else width)
 
@@ -636,7 +637,7 @@ class _Layers:
         return n * self.h
 
     def at(self, y):
-        """Numbers of the layers that hold these heights."""
+        """Indices of the layers that contain the heights `y`."""
         y = np.maximum(y, 0)
         n = np.floor(y * (1 / self.h))
         # The product may be rounded to the wrong side of an edge.
@@ -657,13 +658,14 @@ class _Layers:
 
 
 def _grow(sums, layers):
-    """An array by layer with at least `layers` layers; new ones are zero."""
+    """`sums`, an array by layer, extended to at least `layers` layers with zeros."""
     missing = layers - len(sums)
     return sums if missing <= 0 else np.concatenate([sums, np.zeros((missing, *sums.shape[1:]))])
 
 
 def _book(sums, place, components):
-    """Adds each component [n] (None: 1) at its places [n] to sums [layers, bins, components]."""
+    """Adds components[c][k] (None: 1) for all k to sums [layers, bins, components], at the flat index place[k] of
+    (layer, bin)."""
     for c, values in enumerate(components):
         added = np.bincount(place, values, minlength=sums[..., c].size)
         sums[..., c] += added.reshape(sums.shape[:2])
@@ -672,7 +674,7 @@ def _book(sums, place, components):
 # ------------------------------------------------------------------------------------------- sums
 
 class _Names:
-    """Names of species and pairs in columns: S and L if there are two species, otherwise their names."""
+    """Names of columns by species and pair: S and L if there are two species, otherwise the species' names."""
 
     def __init__(self, species, dimension):
         self.two = len(species) == 2
@@ -693,7 +695,7 @@ class _Names:
         return stem if self.two else f"{stem}_{self.words[a]}+{self.words[b]}"
 
     def numbers(self):
-        """Columns of the numbers of contacts, in the order of _code."""
+        """Names of the columns with numbers of contacts, in the order of _code."""
         count = len(self.words)
         pairs = [self.words[b] + self.words[a] if self.two else
                  self.words[a] if a == b else f"{self.words[a]}+{self.words[b]}"
@@ -702,7 +704,7 @@ class _Names:
 
 
 def _code(a, b):
-    """Number of a pair of species a <= b: SS, LS, LL, ... Pairs with the base follow all others."""
+    """Index of a pair of species a <= b: SS, LS, LL, ... Pairs with the base follow all pairs of species."""
     return b * (b + 1) // 2 + a
 
 
@@ -733,12 +735,12 @@ def _stress_header(power):
 
 
 def _contact_sums(run, layers, frames, power):
-    """The columns of _stress_columns, by layer."""
+    """Values of _stress_columns [layers, columns]."""
     species = len(run.species)
     bins = _code(0, species) + species
     content, number = np.zeros((0, species, 1)), np.zeros((0, bins, 1))
-    # Sums of force (x) a part of the branch: all of it; up to the contact point, from the larger grain or from the
-    # grain at the base; the larger grain's part by size and by power:Q.
+    # Sums of force (x) a part of the branch. whole: the whole branch. cut: from the centre of the larger grain, or of
+    # the grain at the base, to the contact point. size, power: the larger grain's share by size and by power:Q.
     sums = {name: np.zeros((0, bins, run.dimension**2)) for name in ("whole", "cut", "size", "power")}
     for block in run._blocks(frames):
         counts = layers.counts(block)
@@ -765,7 +767,7 @@ def _part_below(dimension, r, height):
 
 
 def _add_contents(run, layers, block, counts, content):
-    """Adds areas or volumes of the grains, cut at the edges of layers."""
+    """Adds areas or volumes of the grains to `content`, cut at the edges of layers."""
     place, grain = block.mobile_grains
     y, r, kind = block.heights.take(place), run.radius.take(grain), run.kind.take(grain)
     last = np.repeat(counts - 1, block.present.sum(axis=1))
@@ -781,7 +783,7 @@ def _add_contents(run, layers, block, counts, content):
 
 
 def _add_contacts(run, layers, block, counts, number, sums, power):
-    """Adds force (x) branch of the contacts that bear a force, in the layer of the contact point."""
+    """Adds numbers and force (x) branch of force-bearing contacts to the layers of their contact points."""
     force, branch = block.contacts("force"), block.contacts("branch")
     fields = [*force.T, *branch.T, block.contacts("gap"), block.contacts("i"), block.contacts("j"),
               block.frame_of_contact]
@@ -806,7 +808,7 @@ def _add_contacts(run, layers, block, counts, number, sums, power):
     cut = np.where(i_is_larger | base, share_i, 1 - share_i)
     _book(sums["cut"], place, [cut * component for component in stress])
     r_i, r_j = run.radius.take(i), run._partner_radius[np.maximum(j, -1)]
-    ratio = np.where(base, 1.0, np.where(i_is_larger, r_j / r_i, r_i / r_j))  # smaller over larger
+    ratio = np.where(base, 1.0, np.where(i_is_larger, r_j / r_i, r_i / r_j))  # smaller radius over larger one
     for name, exponent in (("size", 1), ("power", power)):
         if exponent is not None:
             by_rule = 1 / (1 + ratio**exponent)
@@ -822,12 +824,12 @@ def _kinetic_columns(run):
 
 
 def _content(run):
-    """Area or volume of each grain."""
+    """Area or volume of each grain [N], m^2 or m^3."""
     return math.pi * run.radius**2 if run.dimension == 2 else 4 * math.pi / 3 * run.radius**3
 
 
 def _has_one_density(run):
-    """True if all mobile grains have one density, to the digits of archives (1e-5)."""
+    """True if all mobile grains have one density, to the precision of archives (1e-5)."""
     density = (run.mass / _content(run))[run.mobile]
     return density.max(initial=0) <= density.min(initial=math.inf) * (1 + 1e-5)
 
@@ -841,7 +843,7 @@ def _moving(run, block):
 
 
 def _kinetic_sums(run, layers, frames, mean):
-    """The columns of _kinetic_columns, by layer."""
+    """Values of _kinetic_columns [layers, columns]."""
     d, species = run.dimension, len(run.species)
     content_of = _content(run)
     mean_at = (_profile if mean == "profile" else _mean_of_layers)(run, layers, frames)
@@ -865,7 +867,7 @@ def _kinetic_sums(run, layers, frames, mean):
 
 
 def _mean_flow(flow, h):
-    """u, v (m/s) and du/dy (1/s), the slope of the least-squares line; NaN where grains do not define it."""
+    """u, v (m/s) and du/dy (1/s), the slope of the least-squares line u(y), by layer; NaN without enough grains."""
     mass, my, myy, mu, mv, muy = flow.T
     with np.errstate(invalid="ignore", divide="ignore"):
         y, u = my / mass, mu / mass
@@ -875,7 +877,7 @@ def _mean_flow(flow, h):
 
 
 def _mean_motion(run, layers, frames):
-    """Mass-weighted means of height and motion, by layer; NaN without grains."""
+    """Mass-weighted means of height, velocity and spin, by layer; NaN without grains."""
     sums = np.zeros((0, 1, 2 + (3 if run.dimension == 2 else 6)))
     for block in run._blocks(frames):
         sums = _grow(sums, layers.counts(block).max(initial=1))
@@ -892,8 +894,8 @@ def _mean_of_layers(run, layers, frames):
 
 
 def _profile(run, layers, frames):
-    """The mean motion as a function of height: straight lines between the means of bins, which are at most half a
-    small diameter high; beyond the outer bins their lines go on (analysis/frames/mean_velocity.hpp)."""
+    """Mean velocity and spin as a function of height: straight lines between the means of bins, which are at most
+    half a small diameter high. Beyond the outer bins the lines are continued (analysis/frames/mean_velocity.hpp)."""
     bins = max(math.ceil(layers.h / (run.small_diameter / 2) - 1e-9), 1)
     means = _mean_motion(run, _Layers(layers.h / bins, run.length, run.width, run.path), frames)
     means = means[~np.isnan(means[:, 0])]
@@ -913,7 +915,7 @@ def _profile(run, layers, frames):
 # ----------------------------------------------------------------------------------------- tables
 
 def _run_header(run, layers, length, stride):
-    """The header of a table, as grseg-stress writes it for later steps."""
+    """Header of a table, as grseg-stress writes it."""
     numbers = {"small_diameter": run.small_diameter, "large_diameter": run.large_diameter}
     numbers |= {f"gravity_{axis}": value for axis, value in zip("xyz", run.gravity)}
     numbers |= {"step": run.step, "length": run.length}
@@ -933,22 +935,23 @@ def _run_header(run, layers, length, stride):
 
 
 class Table:
-    """Sums by layer and window, one row each, means per frame. A row has t0, t1 (s), y0, y1 (m), the number of
-    `frames`, V (m^2 or m^3, voids included), then the columns of grseg-stress or grseg-kinetic.
+    """Sums by layer and window, one row each, means per frame. A row has begin t0 and end t1 of the window (s),
+    bottom y0 and top y1 of the layer (m), the number of `frames`, V (area or volume of the layer, m^2 or m^3, voids
+    included), then the columns of grseg-stress or grseg-kinetic.
 
-    name       file or run that it comes from
+    name       name of the file or run
     header     settings, text by key
-    history    one line per command that led to it
-    columns    names without units; `units` has these by name
-    values     [rows, columns]
-    dimension, species    of the run
+    history    one line per command that led to the table
+    columns    names of the columns without units; `units` has the units by name
+    values     numbers [rows, columns]
+    dimension, species    D and mobile Species of the run
 
     table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D], table.to_pandas() a DataFrame.
     """
 
     def __init__(self, name, header, history, columns, values, sources=()):
         self.name, self.header, self.history, self.values = name, header, list(history), values
-        self._sources = list(sources) or [_Source("", None, ())]  # runs from which it is made
+        self._sources = list(sources) or [_Source("", None, ())]  # runs from which the table was made
         self.columns = [column.split("[")[0] for column in columns]
         self.units = {column.split("[")[0]: column.partition("[")[2].rstrip("]") for column in columns}
         self._place = {column: k for k, column in enumerate(self.columns)}
@@ -968,7 +971,7 @@ class Table:
         return self.values[:, self._place[column]]
 
     def tensor(self, stem):
-        """A tensor [rows, D, D]; NaN in components that the table was kept without."""
+        """A tensor [rows, D, D]; off-diagonal components that the table left out are NaN."""
         def component(a, b):
             name = f"{stem}_{a}{b}"
             return self[name] if name in self or a == b else np.full(len(self), np.nan)
@@ -976,23 +979,23 @@ class Table:
         return np.stack([np.stack([component(a, b) for b in axes], axis=-1) for a in axes], axis=-2)
 
     def number(self, key):
-        """A positive number of the header."""
+        """The positive number `key` of the header."""
         try:
             value = float(self.header[key])
         except (KeyError, ValueError):
             value = math.nan
         if not 0 < value < math.inf:
-            raise Error(f"{self.name}: its header should have a positive number '# {key}: ...'; make the table again")
+            raise Error(f"{self.name}: the header needs a positive number '# {key}: ...'; make the table again")
         return value
 
     def to_pandas(self):
-        """A pandas.DataFrame with the rows and columns of the table. Its `attrs` hold the header by key, all commands as
-        "history", and the units of the columns as "units"."""
+        """A pandas.DataFrame with the rows and columns of the table. Its `attrs` contain the header by key, all commands
+        as "history", and the units of the columns as "units"."""
         try:
             import pandas
         except ImportError as error:
-            raise ImportError("Table.to_pandas needs pandas, which is not installed: take Debian's python3-pandas, or "
-                              "pip install pandas") from error
+            raise ImportError("Table.to_pandas needs pandas, which is not installed: install Debian's python3-pandas, "
+                              "or pip install pandas") from error
         frame = pandas.DataFrame(self.values, columns=self.columns, copy=True)
         frame.attrs = self.header | {"history": list(self.history), "units": dict(self.units)}
         return frame
@@ -1011,8 +1014,8 @@ class Table:
 
 
 def read_table(path):
-    """Reads a Table of grseg-stress, grseg-kinetic or another tool from its file. The number of rows is compared
-    with the last line of the file, the checksum in that line is not."""
+    """Reads a Table of grseg-stress, grseg-kinetic or another tool from the file `path`. The number of rows is
+    compared with the last line of the file; the checksum in that line is not verified."""
     def fail(why):
         raise Error(f"{path}: {why}")
     try:
@@ -1033,7 +1036,7 @@ def read_table(path):
     header = dict(reversed(pairs))
     if rows and rows[-1].startswith("# end: "):
         if rows.pop().split()[2] != str(len(rows)):
-            fail(f"has {len(rows)} rows, but its last line names another number: it is damaged; make it again")
+            fail(f"has {len(rows)} rows, but its last line states another number: it is damaged; make it again")
     elif "program" in header:
         fail("does not end with the line '# end: ...' of every table: it is truncated; make it again")
     columns = lines[len(head)].split("\t") if len(lines) > len(head) else []
@@ -1049,10 +1052,11 @@ def read_table(path):
 
 # ------------------------------------------------------------------------------- tables of one run
 
-_Source = collections.namedtuple("_Source", "input bed history")  # of a run; history ends before the table was made
+# A run from which a table was made: its digest, its _Bed, and its history up to the making of the table.
+_Source = collections.namedtuple("_Source", "input bed history")
 _Bed = collections.namedtuple("_Bed", "grains varied come_and_go seed flow")
-# Keys of a scene that are not compared between flows: they do not change the flow, or other lines of the header or the
-# composition hold their numbers.
+# Keys of a scene that are not compared between flows: they do not change the flow, or the composition or other lines
+# of the header include their numbers.
 _NO_OTHER_FLOW = {"seed", "duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "small-diameter",
                   "size-ratio", "density", "friction", "restitution", "gravity", "slope", "step", "length", "phi-large", "large-grains"}
 _OF_NO_EFFECT = {"duration", "frame-interval", "burst", "keep-deposition", "compression", "store", "threads", "isa",
@@ -1076,8 +1080,8 @@ def _bed_line(run):
 
 
 def _acting_options(command):
-    """Options of a restart that act on the motion, with their values, and the time from which they act."""
-    words = re.findall(r"(?<!\S)(--([^\s=]+)\S*)(?:\s+(?!--)(\S+))?", command)
+    """Options of a restart that change the motion, with their values, and the time from which they do."""
+    words = re.findall(r"(?<!\S)(--([^\s=]*)\S*)(?:\s+(?!--)(\S+))?", command)
     acting = "".join(f"{option} {value} " if value else f"{option} " for option, name, value in words if name not in _OF_NO_EFFECT)
     since = command.find(" (from t = ")
     return acting and acting + (command[since:] if since >= 0 else "") + "\n"
@@ -1092,7 +1096,7 @@ def _parse_bed(text):
 
 
 def _sources_of(pairs):
-    """The runs of a table, several if it was merged, from the lines of its header in order."""
+    """The _Sources of a table, several if it was merged, from the keys and values of its header in order."""
     sources = [["", None, []]]
     for key, value in pairs:
         if key in ("history", "input") and sources[-1][0]:
@@ -1119,7 +1123,7 @@ def _seed_of(source):
 
 
 def _goes_on(a, b):
-    """True if one history continues the other, or both continue a common beginning by restarts."""
+    """True if one history is the beginning of the other, or both continue a common beginning by restarts."""
     common = sum(1 for _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(a, b)))
     ends = [common == len(one) for one in (a, b)]
     restarts = [not end and " --restart" in one[common] for end, one in zip(ends, (a, b))]
@@ -1127,7 +1131,7 @@ def _goes_on(a, b):
 
 
 def _kinship(a, b):
-    """Kinship of two runs, one of the five above (analysis/frames/runs_of_tables.hpp)."""
+    """Kinship of two _Sources, one of the five constants above (analysis/frames/runs_of_tables.hpp)."""
     if a.input and a.input == b.input:
         return _SAME_MOTION
     seeds = _seed_of(a), _seed_of(b)
@@ -1146,7 +1150,7 @@ def _kinship(a, b):
 
 
 def _overlap(a, b):
-    """Begin, s, of a window of table a that overlaps one of b by more than round-off; None if there is none."""
+    """Begin, s, of the first window of table a that overlaps one of b by more than round-off; None if none does."""
     spans = [np.unique(np.column_stack([table["t0"], table["t1"]]), axis=0) for table in (a, b)]
     for begin, end in spans[0]:
         common = np.minimum(end, spans[1][:, 1]) - np.maximum(begin, spans[1][:, 0])
@@ -1156,7 +1160,7 @@ def _overlap(a, b):
 
 
 def _find_runs(tables):
-    """The number of the run of each table, and the tables that may or may not be of one run with another."""
+    """The run number of each table, and the indices of tables that may or may not share a run with another table."""
     first, untold = [], []
     for k, table in enumerate(tables):
         first.append(k)
@@ -1166,8 +1170,8 @@ def _find_runs(tables):
             if kin == _SAME_GRAINS:
                 kin = _ONE_BED if time is None else _UNTOLD
             if kin == _SAME_MOTION and time is not None:
-                raise Error(f"{other.name} and {table.name} both hold the time from {time:g} s of the same run; leave "
-                            "one of them out")
+                raise Error(f"{other.name} and {table.name} both contain the time from {time:g} s of the same run; "
+                            "leave one of them out")
             if kin == _UNTOLD:
                 untold.append((earlier, k))
             if kin >= _ONE_BED:
@@ -1181,7 +1185,7 @@ def _find_runs(tables):
 # --------------------------------------------------------------------------- partition and estimates
 
 def _parse_rule(rule):
-    """Word and number of a rule, ("power", 2.0) for "power:2"; the number is None for rules that have none."""
+    """Word and number of a rule: ("power", 2.0) for "power:2"; the number is None for rules without one."""
     word, colon, text = rule.partition(":")
     try:
         if word in ("uniform", "power") and colon:
@@ -1196,13 +1200,13 @@ def _parse_rule(rule):
 
 
 def _parts_of(table, names, rule, number, a, b):
-    """The larger and the smaller grains' parts of the mixed contacts of species a < b by the rule, N m; both are 0
-    for drop."""
+    """Parts of the sum over mixed contacts of species a < b that the larger and the smaller grains get by the rule,
+    N m; both are 0 for drop."""
     of = lambda stem: table.tensor(names.pair(stem, a, b))
     if rule == "drop":
         return 0, 0
     if rule in ("half", "uniform"):
-        at_centres = names.pair("ML", 0, 1) + "_xx" in table  # --assign grain: each part counts at its own grain
+        at_centres = names.pair("ML", 0, 1) + "_xx" in table  # --assign grain: each part is counted at its grain
         return number * of("ML" if at_centres else "M"), (1 - number) * of("MS" if at_centres else "M")
     if rule == "power" and float(table.header.get("power", "nan")) != number:
         raise Error(f"{table.name}: its column Mpower_* was not made with power:{number:g}; make the table with "
@@ -1212,13 +1216,14 @@ def _parts_of(table, names, rule, number, a, b):
 
 
 def partial_stress(table, rule="size", base=None):
-    """The stress of each species by a rule, (of_species [rows, K, D, D], total [rows, D, D]), N/m or Pa:
-    sigma^nu = (A + its parts of mixed contacts + its part at the base)/V. The species add up to the total, except
-    by drop.
+    """Stress of each of K species and total stress by a rule, (of_species [rows, K, D, D], total [rows, D, D]), N/m or
+    Pa. sigma^nu = (A + parts of mixed contacts + part of contacts with the base)/V, with A the sum over contacts inside
+    the species. The species' stresses add up to the total for every rule except drop.
 
-    rule    the larger grain's part of a mixed contact: "size", "contact-point", "half", "drop", "uniform:P" or
-            "power:Q", for which the table must have been made
-    base    part of a contact with base or walls: "contact-point", "half" or "none"; default: as in the table
+    rule    rule for the larger grain's share of a mixed contact: "size", "contact-point", "half", "drop", "uniform:P"
+            or "power:Q"; power:Q needs a table made with the same Q
+    base    part of a contact with base or walls that its grain gets: "contact-point", "half" or "none"; default: as in
+            the table
     """
     names, count = _Names(table.species, table.dimension), len(table.species)
     rule, number = _parse_rule(rule)
@@ -1246,23 +1251,23 @@ def partial_stress(table, rule="size", base=None):
 @dataclasses.dataclass
 class Fit:
     """Estimates for two species by a rule. The segregation strength B of psi_L = phi_L (1 + B phi_S) is a mean over
-    layers and frames with the weight phi_L phi_S. Names and definitions agree with grseg-fit; NaN is undefined.
+    layers and frames with the weight phi_L phi_S. Names and definitions agree with grseg-fit; NaN means undefined.
 
     An interval is (low, high), 95 %, as in grseg-fit over the windows of one run or the runs of one flow; it is NaN
-    for several flows. grseg-fit also has intervals over flows and for the paper's fit, and says if an interval is in
-    doubt, for instance because few windows are independent.
+    for several flows. grseg-fit also has intervals over flows and for the fits of Staron & Phillips (2015), and warns
+    if an interval is doubtful, for instance because few windows are independent.
     """
 
     rule: str
-    points: int      # number of layers and windows
-    B: float         # sum f (psi_L - phi_L) / sum f phi_L phi_S, f: frames
-    share: float     # p for which uniform:p gives this B
-    p_zero: float    # p for which uniform:p gives B = 0, whatever the rule
-    dB_dp: float     # slope of B over p, there
-    paper_s: float   # the paper's fit sigma^S/sigma^L = s phi_S/phi_L, as a mean of logarithms
+    points: int      # number of points: layers x windows
+    B: float         # sum f (psi_L - phi_L) / sum f phi_L phi_S, f: number of frames
+    share: float     # share p at which uniform:p gives the same B
+    p_zero: float    # share p at which uniform:p gives B = 0; the same for every rule
+    dB_dp: float     # slope of B(p) at p_zero
+    paper_s: float   # s of the fit sigma^S/sigma^L = s phi_S/phi_L of Staron & Phillips, as a mean of logarithms
     paper_B: float   # half the sum of 1 - s and (1 - s)/s
-    paper_k: float   # sigma^S/sigma^L = k (phi_S/phi_L)^a, weighted least squares of the logarithms
-    paper_a: float
+    paper_k: float   # k of sigma^S/sigma^L = k (phi_S/phi_L)^a, by weighted least squares of the logarithms
+    paper_a: float   # a of the same fit
     B_interval: tuple
     p_zero_interval: tuple
     dB_dp_interval: tuple
@@ -1271,32 +1276,32 @@ class Fit:
 
 
 class Points:
-    """The layers and windows that take part in a fit, as grseg-fit selects them with the same options, and their
+    """Points of a fit: layers and windows, selected as by grseg-fit with the same options. Methods return their
     stresses and estimates by rule.
 
-    tables         a Table or several
-    quantity       "contact" for tables of sums of contacts, or "kinetic"
-    component      "yy", or "pressure", which is the trace over D
-    base           part of contacts with the base; default: as in the first table
+    tables         one Table or several
+    quantity       "contact" for tables of contact sums, "kinetic" for tables of kinetic sums
+    component      component of the stress: "yy", or "pressure", the trace divided by D
+    base           part of contacts with the base that its grain gets; default: as in the first table
     pair           names of the two species, if the tables have more
     ratio_range    range of phi_S/phi_L
     heights        range of the layers: "inside" (without 4 d_S at the base and under the surface), "all", "4dS:56dS" or "4dS:"
-    min_solid      least solid fraction of a layer, in units of the run's median
+    min_solid      least solid fraction of a layer, over the median of the run
     begin, end     range of the windows, s
 
-    Fields of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), frames,
-    size_ratio, table (a number), row (in that table), run (a number).
+    Fields of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), number of
+    frames, size_ratio d_L/d_S, table (index), row (index in that table), run (index).
 
-    Tables of one bed, such as a run and its continuation, are one run; if two hold the same time of it, Error is
-    raised. `untold` names tables that may or may not be of one run with another. `over` is the population of the
-    intervals: "windows" of one run, "runs" of one flow, "" for several flows.
+    Tables of one bed, such as a run and its continuation, are one run; if two contain the same time of the run, Error
+    is raised. `untold` lists names of tables that may or may not share a run with another table. `over` is the
+    population of the intervals: "windows" of one run, "runs" of one flow, "" for several flows.
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
                  heights="inside", min_solid=0.5, begin=-math.inf, end=math.inf):
         self.tables = [tables] if isinstance(tables, Table) else list(tables)
         if not self.tables or quantity not in ("contact", "kinetic") or component not in ("yy", "pressure"):
-            raise ValueError("Points wants tables, quantity contact or kinetic, component yy or pressure")
+            raise ValueError("Points needs tables, quantity contact or kinetic, component yy or pressure")
         self.quantity, self.component = quantity, component
         self.base = base or self.tables[0].header.get("base", "contact-point")
         self.pair = self._find_pair(pair)
@@ -1311,8 +1316,8 @@ class Points:
         for name in ("row", "phi_large", "weight", "frames", "size_ratio"):
             setattr(self, name, np.concatenate([one[name] for one in chosen]))
         if len(self.run) == 0:
-            raise Error(f"{self.tables[0].name}: no layer and window passes the filters; B needs layers that hold both "
-                        "species, and grseg-fit says what removed them")
+            raise Error(f"{self.tables[0].name}: no layer and window passes the filters; B needs layers that contain "
+                        "both species; grseg-fit reports how many rows each filter removed")
         self.x = (1 - self.phi_large) / self.phi_large
         self._b_weight = self.frames * self.phi_large * (1 - self.phi_large)
         one_flow = self._is_one_flow([self.tables[k] for k in np.unique(self.table)])
@@ -1322,7 +1327,7 @@ class Points:
         return len(self.run)
 
     def stresses(self, rule="size"):
-        """Stresses of the smaller species, the larger one, and both [n], N/m or Pa; kinetic stress is K/V."""
+        """Stresses of the smaller species, of the larger species, and of both [n], N/m or Pa; kinetic stress is K/V."""
         small, large, total = (np.empty(len(self)) for _ in range(3))
         for number, table in enumerate(self.tables):
             own, rows = self.table == number, self.row[self.table == number]
@@ -1334,7 +1339,7 @@ class Points:
         return small, large, total
 
     def fit(self, rule="size"):
-        """The Fit of a rule; kinetic stress does not depend on it."""
+        """The Fit under a rule; for kinetic stress it is the same for every rule."""
         small, large, total = self.stresses(rule)
         adds_up = self.quantity == "kinetic" or rule != "drop"
         excess = self._excess(large, total)
@@ -1389,7 +1394,7 @@ class Points:
         return np.stack([table[name] for name in names.contents], axis=1)
 
     def _select(self, table):
-        """The rows of a table that take part, as select_fit_data() of analysis/fit/fit_data.cpp chooses them."""
+        """Fields of the points of one table, selected as in select_fit_data() of analysis/fit/fit_data.cpp."""
         if table.header.get("bins", "layers").split(" ")[0] in ("xy", "xz", "rz"):
             raise Error(f"{table.name}: a map, whose rows are cells, not layers; make the table without --bins")
         contents = self._contents(table)
@@ -1409,7 +1414,7 @@ class Points:
                 "frames": frames, "size_ratio": np.full(len(frames), d_large / d_small)}
 
     def _in_range(self, table, solid, median):
-        """True for rows in the times and heights that take part."""
+        """True for rows inside the ranges of times and heights [rows]."""
         t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
         slack = 1e-9 * (1 + abs(t0) + abs(t1))
         good = (t0 >= self._times[0] - slack) & (t1 <= self._times[1] + slack)
@@ -1418,7 +1423,7 @@ class Points:
         return good & (y0 >= low - slack) & (y1 <= high + slack)
 
     def _height_range(self, table, solid, median):
-        """The range of heights, m, as parse_heights() of analysis/frames/layer_key.hpp gives it."""
+        """The range of heights, m, as in parse_heights() of analysis/frames/layer_key.hpp."""
         sizes = table.number("small_diameter"), table.number("large_diameter")
         if self._heights == "all":
             return -math.inf, math.inf
@@ -1439,7 +1444,7 @@ class Points:
         return base + 4 * sizes[0], base + (filled * (tops - bottoms)).sum() - 4 * sizes[0]
 
     def _stresses_of(self, table, rule):
-        """The component of the stress of each species [rows, K] and of all [rows]."""
+        """The chosen component of the stress of each species [rows, K] and of all species [rows]."""
         if self.quantity == "kinetic":
             words = _Names(table.species, table.dimension).words
             of_species = np.stack([table.tensor(f"K_{word}") for word in words], axis=1) / table["V"][:, None, None, None]
@@ -1457,13 +1462,13 @@ class Points:
         return float((f * (large[ok] / total[ok] - phi)).sum() / product) if ok.any() else math.nan
 
     def _excess(self, large, total):
-        """psi_L - phi_L of each point, NaN without stress."""
+        """psi_L - phi_L of each point; NaN unless the total stress is positive."""
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.where(total > 0, large / total - self.phi_large, math.nan)
 
     def _zero(self):
-        """p* by Newton's method, which takes one step if B is linear in the share; and, at p*, psi_L - phi_L of each
-        point with its derivative by the share."""
+        """p* by Newton's method, which needs one step if B is linear in the share p; and, at p*, psi_L - phi_L of each
+        point and its derivative with respect to p."""
         none, everything = self.stresses("uniform:0"), self.stresses("uniform:1")
         change = [all_to - none_to for none_to, all_to in zip(none, everything)]
         share = 0.5
@@ -1481,7 +1486,7 @@ class Points:
         return float(share), excess, by_share
 
     def _is_one_flow(self, tables):
-        """True if tables agree in composition and in all facts of the flow that they record (analysis/fit/flows.cpp)."""
+        """True if all tables agree in composition and in all recorded settings of the flow (analysis/fit/flows.cpp)."""
         def near(a, b, part):
             try:
                 return a == b or abs(float(a) - float(b)) <= part * max(abs(float(a)), abs(float(b)))
@@ -1508,8 +1513,8 @@ class Points:
 
     @functools.cached_property
     def _observation(self):
-        """The number of each point's window [n], in order of time. Windows of one run that overlap, or between which
-        nothing moved, count as one (analysis/frames/runs_of_tables.cpp)."""
+        """Index of each point's window [n], in order of time. Windows of one run that overlap, or between which no
+        grain moved, count as one (analysis/frames/runs_of_tables.cpp)."""
         spans = [(self.tables[k]["t0"][row], self.tables[k]["t1"][row], k) for k, row in zip(self.table, self.row)]
         number, count, last = {}, 0, None
         for span in sorted(set(spans)):
@@ -1519,15 +1524,15 @@ class Points:
         return np.array([number[span] for span in spans])
 
     def _noise(self, excess):
-        """The part of the sum of frames * excess that composition does not explain, and the weight of B, by window."""
+        """By window: noise of the sum of frames * excess, the part that composition does not explain; weight in B."""
         ok = np.isfinite(excess)
         weight, window, count = self._b_weight[ok], self._observation[ok], self._observation.max() + 1
         noise = weight * _composition_noise(self.phi_large[ok], self.frames[ok] * excess[ok] / weight, weight)
         return np.bincount(window, noise, count), np.bincount(window, weight, count)
 
     def _interval(self, value, excess, per, like):
-        """The interval of a number to which each point adds frames * excess / per, and its degrees of freedom. The
-        dependence between windows is taken from B with the excess `like`."""
+        """Interval and degrees of freedom of a number to which each point contributes frames * excess / per. The
+        dependence between windows is that of B with the excess `like`."""
         error, degrees, ok = math.nan, math.nan, np.isfinite(excess)
         if self.over == "windows" and ok.any():
             error, degrees = _error_over_windows(self._noise(excess)[0] / per, *self._noise(like))
@@ -1541,8 +1546,8 @@ class Points:
 # -------------------------------------------------------------------------------------- intervals
 
 def _is_again(tables, last, window):
-    """True if a window (t0, t1, table) overlaps an earlier one, or if nothing moved since: areas or volumes and
-    stresses are equal to a millionth (analysis/frames/runs_of_tables.cpp)."""
+    """True if `window` (t0, t1, table) overlaps the earlier window `last`, or if no grain moved in between: areas or
+    volumes and stresses agree to a millionth (analysis/frames/runs_of_tables.cpp)."""
     if min(last[1], window[1]) - max(last[0], window[0]) > 1e-6 * min(last[1] - last[0], window[1] - window[0]):
         return True
     a, b = (tables[k] for _, _, k in (last, window))
@@ -1560,7 +1565,7 @@ def _is_again(tables, last, window):
 
 
 def _composition_noise(phi, value, weight):
-    """`value` less its fit by a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/least_squares.hpp)."""
+    """`value` minus its fit by a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/least_squares.hpp)."""
     if len(value) < 30:
         return value - value @ weight / weight.sum()
     basis, root = np.column_stack([np.ones_like(phi), np.log((1 - phi) / phi), phi]), np.sqrt(weight)
@@ -1568,7 +1573,7 @@ def _composition_noise(phi, value, weight):
 
 
 def _autocorrelation_time(series):
-    """Autocorrelation time in windows, at least 1 (analysis/statistics/dependence.hpp)."""
+    """Autocorrelation time in windows, at least 1 (analysis/statistics/confidence.hpp)."""
     n, rest = len(series), series - series.mean()
     square = rest @ rest
     if not square > 0:
@@ -1586,8 +1591,8 @@ def _autocorrelation_time(series):
 
 
 def _error_over_windows(parts, like, weight):
-    """The standard error of a sum over the windows of one run, and its degrees of freedom, from a thousand samples of
-    blocks of windows; the length of blocks follows from `like` (analysis/statistics/bootstrap.hpp)."""
+    """Standard error and degrees of freedom of a sum over the windows of one run, from a thousand samples of blocks of
+    windows. The block length follows from the series `like` (analysis/statistics/bootstrap.hpp)."""
     n, time = len(parts), _autocorrelation_time(like)
     rho = (time - 1) / (time + 1)
     best = (math.sqrt(6) * rho / (1 - rho**2))**(2 / 3) * n**(1 / 3)
@@ -1606,7 +1611,7 @@ def _error_over_windows(parts, like, weight):
 
 
 def _draw(count, below):
-    """Whole numbers from 0 to below - 1, the same as GSL's mt19937 gives with seed 1."""
+    """Whole numbers from 0 to below - 1, equal to those of GSL's mt19937 with seed 1."""
     scale, random, drawn = 0xffffffff // below, np.random.RandomState(1), np.empty(0, int)
     while len(drawn) < count:
         more = random.randint(0, 1 << 32, count, np.uint32).astype(int) // scale
@@ -1615,8 +1620,7 @@ def _draw(count, below):
 
 
 def _error_over_runs(parts, weight):
-    """The standard error of a sum over independent runs, and its degrees of freedom
-    (analysis/statistics/confidence.hpp)."""
+    """Standard error and degrees of freedom of a sum over independent runs (analysis/statistics/confidence.hpp)."""
     runs = weight.sum()**2 / (weight**2).sum()
     rest = parts - parts.sum() / weight.sum() * weight
     return math.sqrt(runs / (runs - 1) * (rest @ rest)) if runs > 1 else math.nan, runs - 1
@@ -1624,8 +1628,8 @@ def _error_over_runs(parts, weight):
 
 @functools.lru_cache
 def _student(degrees):
-    """The 97.5 % quantile of Student's t: sqrt(degrees) tan(angle), where 0.475 of the density, which is proportional to
-    cos^(degrees - 1), lies between 0 and the angle."""
+    """The 97.5 % quantile of Student's t: sqrt(degrees) tan(angle). The density of the angle is proportional to
+    cos^(degrees - 1), and 0.475 of it lies between 0 and the quantile's angle."""
     nodes, weights = np.polynomial.legendre.leggauss(200)
     factor = math.exp(math.lgamma((degrees + 1) / 2) - math.lgamma(degrees / 2)) / math.sqrt(math.pi)
     low, high = 0.0, math.pi / 2
@@ -1637,7 +1641,8 @@ def _student(degrees):
 
 
 def _fits_of_the_paper(x, small, large, weight):
-    """The paper's estimates from points with both stresses positive: estimators_of() of analysis/fit/estimators.cpp."""
+    """Fits of Staron & Phillips (2015) to points with both stresses positive, as in estimators_of() of
+    analysis/fit/estimators.cpp."""
     ok = (small > 0) & (large > 0)
     log_slope = prefactor = exponent = math.nan
     if ok.any():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Takes the version from CMakeLists.txt, which pyproject.toml cannot read, or from PKG-INFO in an archive made by pip's tools."""
+"""Reads the version from CMakeLists.txt, which pyproject.toml cannot do, or from PKG-INFO in an archive made by pip's tools."""
 import pathlib
 import re
 

@@ -14,12 +14,13 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr const char* font = "DejaVu Sans";
 
-/// Makes cairo use the fonts that came with the program (scripts/portable), if any: the system may have
-/// none. Returns true, to be kept in a static: several threads make canvases, and setenv is for one.
+/// Makes cairo use the fonts that came with the program (scripts/portable), if any, since the system may
+/// have no fonts. Returns true. Call it once, to initialise a static: several threads make canvases, but
+/// setenv must not run in two threads at once.
 bool use_own_fonts()
 {
   std::error_code none;
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval(3) gives an address as a number
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): getauxval(3) returns an address as a number
   const auto* name = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   const auto program = std::filesystem::canonical(name, none);
   const auto own = program.parent_path().parent_path() / "share/grseg/fonts.conf";
@@ -27,7 +28,7 @@ bool use_own_fonts()
   return true;
 }
 
-/// Fixes how text is drawn, so that the user's desktop settings do not change the bytes of a picture.
+/// Sets how text is drawn, so that the user's desktop settings do not change the bytes of a picture.
 void fix_font_options(cairo_t* cairo)
 {
   cairo_font_options_t* options = cairo_font_options_create();
@@ -43,7 +44,7 @@ void fix_font_options(cairo_t* cairo)
 Canvas::Canvas(cairo_surface_t* surface, double em, bool quick)
     : cairo_(cairo_create(surface)), em_(em), quick_(quick)
 {
-  // px; fine in still pictures, because SVG and PDF may be magnified.
+  // Largest error of a curve, px; small in still pictures, because SVG and PDF may be magnified.
   cairo_set_tolerance(cairo_.get(), quick ? 0.25 : 0.02);
   if (quick) cairo_set_antialias(cairo_.get(), CAIRO_ANTIALIAS_FAST);
   [[maybe_unused]] static const bool chosen = use_own_fonts();
@@ -80,7 +81,7 @@ void Canvas::disc(const Vec2& centre, double radius, const Colour& colour)
 void Canvas::rimmed_disc(const Vec2& centre, double radius, const Colour& colour,
                          const Colour& rim_colour, double rim)
 {
-  if (quick_) {  // half the time of a stroke
+  if (quick_) {  // two filled discs take half the time of a stroke
     disc(centre, radius, rim_colour);
     disc(centre, radius - rim, colour);
     return;

@@ -17,23 +17,23 @@ struct CairoSurfaceDeleter {
 };
 using CairoSurface = std::unique_ptr<cairo_surface_t, CairoSurfaceDeleter>;
 
-/// Paints on a surface of cairo. Lengths are in pixels, y points down the page.
+/// Paints on a cairo surface. Positions and lengths are in pixels, y points down the page.
 class Canvas {
  public:
-  /// `em`: size of the letters, px. `quick`, for films: circles with fewer corners, edges with fewer
-  /// shades.
+  /// `em`: size of the letters, px. `quick` is for films: circles have fewer corners and edges are
+  /// smoothed with fewer shades.
   Canvas(cairo_surface_t* surface, double em, bool quick = false);
 
   double em() const { return em_; }
 
   void fill_all(const Colour& colour);
   void disc(const Vec2& centre, double radius, const Colour& colour);
-  /// A disc with a rim of another colour; the rim is `rim` px wide and lies inside the radius.
+  /// A disc with a rim, which lies inside the radius; `rim` is the width of the rim, px.
   void rimmed_disc(const Vec2& centre, double radius, const Colour& colour,
                    const Colour& rim_colour, double rim);
-  /// A sphere, lit from above left.
+  /// A sphere, lit from the upper left.
   void ball(const Vec2& centre, double radius, const Colour& colour);
-  /// A line that begins round; it also ends round if `round_end`.
+  /// A line with a round start; its end is round, too, if `round_end` is true.
   void capsule(const Vec2& from, const Vec2& to, double width, bool round_end,
                const Colour& colour);
   void line(const Vec2& from, const Vec2& to, double width, const Colour& colour);
@@ -41,12 +41,12 @@ class Canvas {
   void polygon(std::span<const Vec2> corners, const Colour& colour);
   void rectangle(const Vec2& low, const Vec2& size, const Colour& colour);
 
-  /// Nothing is painted outside of the polygon until `end_clip`.
+  /// Restricts painting to the polygon until end_clip() is called.
   void clip(std::span<const Vec2> corners);
   void end_clip();
 
-  /// One line of text; `at` is the left end of its baseline, or the middle where it is centred. `size`
-  /// and the returned width: em and px.
+  /// One line of text. `at` is the left end of its baseline, or the middle of the baseline for
+  /// centred_text(). `size` is in em, the returned width in px.
   void text(const Vec2& at, const std::string& text, const Colour& colour, double size = 1);
   void centred_text(const Vec2& at, const std::string& text, const Colour& colour, double size = 1);
   double text_width(const std::string& text, double size = 1) const;

@@ -16,7 +16,7 @@ constexpr Colour orange = rgb(0xe69f00), sky_blue = rgb(0x56b4e9), green = rgb(0
 constexpr SpeciesColours palette[] = {{sky_blue, blue}, {vermilion, vermilion}, {green, green},
                                       {purple, purple}, {orange, orange},       {yellow, yellow}};
 
-/// Matplotlib's viridis in steps of 1/20; colours interpolated between them are off by 3/255 at most.
+/// Matplotlib's viridis in steps of 1/20. Linear interpolation between these colours is off by 3/255 at most.
 constexpr Colour viridis_stops[] = {
     rgb(0x440154), rgb(0x481466), rgb(0x482476), rgb(0x463480), rgb(0x414487), rgb(0x3b528b),
     rgb(0x34608d), rgb(0x2f6c8e), rgb(0x2a788e), rgb(0x25848e), rgb(0x21908c), rgb(0x1e9c89),

@@ -14,40 +14,41 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// The colour 0xRRGGBB, as in 0xd55e00.
+/// Colour from its hexadecimal number 0xRRGGBB, as in 0xd55e00.
 constexpr Colour rgb(std::uint32_t hex)
 {
   return {static_cast<double>(hex >> 16 & 255) / 255, static_cast<double>(hex >> 8 & 255) / 255,
           static_cast<double>(hex & 255) / 255};
 }
 
-/// `share` of b, the rest of a.
+/// Mixture of two colours; `share` is the share of b, from 0 to 1.
 Colour mix(const Colour& a, const Colour& b, double share);
 
-/// Colours of a picture, without species and fields.
+/// Colours of a picture except the colours of species and fields.
 struct Theme {
-  Colour background, ink;  // text and lines
-  Colour faint;            // edges of the cell
-  Colour boundary;         // grains that belong to none of the species
+  Colour background, ink;  // `ink`: colour of text and lines
+  Colour faint;            // colour of the edges of the cell
+  Colour boundary;         // colour of boundary grains, which have no mobile species
 };
 inline constexpr Choice<Theme> themes[] = {
     {"light", {rgb(0xffffff), rgb(0x1a1a1a), rgb(0xb8b8b8), rgb(0xa8a8a8)}},
     {"dark", {rgb(0x14171c), rgb(0xe6e6e6), rgb(0x4a505a), rgb(0x6b7280)}}};
 
-/// Colours of species `number` of `count`, counted from 0 in order of size. They come from the palette of
-/// Okabe & Ito (2008): small grains are sky blue, large ones vermilion. If there are more species than the
-/// palette has colours, they are spread along viridis. `line` is the hue for lines over such grains.
+/// Colours of one species: `grain` for its grains, `line` for lines of contacts drawn over its grains.
+/// species_colours() returns the colours of species `number` (from 0, in order of size) of `count`. They
+/// come from the palette of Okabe & Ito (2008): small grains are sky blue, large grains vermilion. If
+/// there are more species than colours in the palette, the colours are spread along viridis.
 struct SpeciesColours {
   Colour grain, line;
 };
 SpeciesColours species_colours(std::size_t number, std::size_t count);
 
-/// Gives the colour of a place from 0 to 1; places beyond have the colours of the ends.
+/// Colour scale: maps a number from 0 to 1 to a colour; numbers outside get the colour of the nearer end.
 using ColourMap = Colour (*)(double place);
 
-/// Perceptually uniform, from dark blue over green to yellow (S. van der Walt & N. Smith 2015, CC0).
+/// Perceptually uniform scale from dark blue over green to yellow (S. van der Walt & N. Smith 2015, CC0).
 Colour viridis(double place);
-/// Map for fields of both signs: blue, almost white at 1/2, vermilion, the colours of Okabe & Ito.
+/// Colour scale for fields of both signs: blue at 0, almost white at 1/2, vermilion at 1 (Okabe & Ito).
 Colour blue_white_red(double place);
 
 }  // namespace grseg

@@ -30,7 +30,7 @@ std::vector<Disc> discs_of(const Grains& grains, const Frame<D>& frame,
     if (!is_present(frame, g)) continue;
     const auto nearness = view.nearness<D>(frame.position[g]);
     if (!nearness) continue;
-    // In two dimensions no grain is nearer than another, and boundary grains are drawn first.
+    // In two dimensions all grains are equally near, and boundary grains are drawn first.
     const double order = D == 3 ? *nearness : is_mobile(grains, g) ? 1 : 0;
     const Vec2 centre = view.flat<D>(frame.position[g]);
     const Vec2 reach = Vec2::Constant(grains.radius[g]);
@@ -43,7 +43,8 @@ std::vector<Disc> discs_of(const Grains& grains, const Frame<D>& frame,
   return discs;
 }
 
-/// Adds contact `k` as lines in the colours of its two species: `whole`, divided by the rule of the style.
+/// Adds the line `whole` of contact `k`, divided by the rule of the style into parts with the colours of the
+/// two species.
 template <int D>
 void add_shared(std::vector<Line>& lines, const Line& whole, const Grains& grains,
                 const Frame<D>& frame, std::size_t k, const LineStyle& style)
@@ -88,7 +89,7 @@ std::vector<Line> lines_of(const Grains& grains, const Frame<D>& frame, const Vi
         lines.push_back(whole);
     });
   }
-  // Strong contacts over weak ones.
+  // Strong contacts are drawn last, over weak ones.
   std::ranges::stable_sort(lines, {}, &Line::width);
   return lines;
 }

@@ -10,67 +10,69 @@
 #include <optional>
 #include <vector>
 
-/// Shapes that are drawn of a frame, in metres in the plane of the picture. A grain or contact that
-/// crosses a period appears once for each of its images.
+/// Shapes that show a frame, in metres in the plane of the picture. A grain or contact that crosses an end
+/// of a period appears once for each of its periodic images.
 namespace grseg {
 
 struct Disc {
   Vec2 centre;
   double radius;
   Colour colour;
-  double order;  // the lowest is drawn first
+  double order;  // drawing order: discs with lower numbers are drawn first
 };
 
-/// A contact, or one grain's part of it. It begins, with a round end, at the centre of a grain.
+/// Line of a contact, or the part of it that belongs to one grain. `from` is the centre of a grain, where the
+/// line is round.
 struct Line {
   Vec2 from, to;
   double width;
   Colour colour;
-  bool round_end;  // the other end is at a grain, too
+  bool round_end;  // true if `to` is round, too, because it is the centre of the other grain
 };
 
-/// A straight wall perpendicular to the plane; `normal` points to the grains.
+/// A straight wall perpendicular to the plane of the picture; `normal` points to the grains.
 struct WallLine {
   Vec2 point, normal;
 };
 
-/// Everything in one panel. Walls are drawn first, then discs, then lines.
+/// All shapes of one panel of a picture. Walls are drawn first, then discs, then lines.
 struct Drawing {
-  double time = 0;              // s
-  Vec2 gravity = Vec2::Zero();  // m/s^2, its part in the plane
+  double time = 0;              // time of the frame, s
+  Vec2 gravity = Vec2::Zero();  // component of gravity in the plane, m/s^2
   std::vector<WallLine> walls;
   std::vector<Disc> discs;
   std::vector<Line> lines;
 };
 
-/// Colours of a field.
+/// Colour scale of a field (grain_field.hpp).
 struct ColourScale {
   ColourMap map = viridis;
   Range range{0, 1};
-  bool below = false, above = false;  // some numbers lie beyond that end and have its colour
-  Colour pale;                        // mixed into all colours, with the share `paleness`
+  bool below = false, above = false;  // true if some numbers lie below or above `range`
+  Colour pale;                        // colour mixed into all colours, with the share `paleness`
   double paleness = 0;
 
-  /// `place`: 0 to 1 along the map.
+  /// Colour at a place along the map, 0 to 1.
   Colour at_place(double place) const { return mix(map(place), pale, paleness); }
   Colour at(double value) const { return at_place((value - range.low) / range.length()); }
 };
 
-/// Colours of grains: by species, or by the numbers of a field.
+/// Colours of grains: by species, or by the values of a field.
 struct GrainColours {
   std::vector<Colour> of_species;
-  Colour boundary;                   // of boundary grains, and of grains without a number
-  std::optional<ColourScale> scale;  // of the field; none: colours of species
+  Colour boundary;                   // colour of boundary grains and of grains whose value is NaN
+  std::optional<ColourScale> scale;  // colour scale of the field; none: colours of species
 };
 
-/// Style of contacts, which are lines between centres, as wide as the normal force is strong. If there
-/// is a rule, each grain's share of the line has the colour of its species and begins at its centre.
+/// Style of contacts. A contact is a line between the centres of its grains; its width is proportional to
+/// the normal force. With a partition rule, each grain's share of the line begins at the grain's centre
+/// and has the colour of its species.
 struct LineStyle {
-  double width_per_newton = 0;  // m/N
+  double width_per_newton = 0;  // line width over normal force, m/N
   std::optional<PartitionRule> rule;
   std::vector<Colour> of_species;
-  Colour plain;   // of all lines, without a rule
-  Colour nobody;  // of shares that no species has: of the base, and of mixed contacts under `drop`
+  Colour plain;   // colour of all lines if there is no rule
+  Colour nobody;  // colour of shares without species: of the base, of mixed contacts under `drop`
 };
 
 struct DrawingStyle {
@@ -78,8 +80,9 @@ struct DrawingStyle {
   std::optional<LineStyle> lines;
 };
 
-/// Draws a frame. `values`: the field's number of each grain; empty without a field. In three
-/// dimensions nearer grains come later, and contacts are drawn if their contact point lies in the slab.
+/// Draws a frame. `values`: value of the field for each grain; empty without a field. In three dimensions,
+/// grains nearer to the viewer are drawn later, and only contacts with a contact point in the slab
+/// (View::slab) are drawn.
 template <int D>
 Drawing draw_frame(const Grains& grains, const Frame<D>& frame, const std::vector<double>& values,
                    Walls<D> walls, const View& view, const DrawingStyle& style);

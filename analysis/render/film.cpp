@@ -13,7 +13,8 @@
 namespace grseg {
 namespace {
 
-/// Bytes; Linux limits each argument of a program to 128 KiB (MAX_ARG_STRLEN).
+/// Largest size of a film's comment, bytes. Linux limits each argument of a program to 128 KiB
+/// (MAX_ARG_STRLEN).
 constexpr std::size_t longest_comment = 100000;
 
 std::vector<std::string> words_of(const std::string& text)
@@ -37,7 +38,8 @@ std::vector<std::string> arguments(const std::string& path, const FilmFormat& fo
                    ? "-c:v libx264 -preset superfast -crf 23 -movflags +faststart -f mp4"
                    : "-c:v libvpx-vp9 -deadline good -cpu-used 4 -crf 30 -b:v 0 -f webm");
   all.insert(all.end(), coding.begin(), coding.end());
-  // Added unsplit, since they may hold spaces; "file:" keeps ffmpeg from taking a name for an address.
+  // These arguments are not split at spaces, since they may contain spaces. "file:" prevents ffmpeg from
+  // reading a name as an address.
   all.insert(all.end(), {"-metadata", "comment=" + shortened(format.history, longest_comment),
                          "file:" + path});
   return all;
@@ -46,7 +48,7 @@ std::vector<std::string> arguments(const std::string& path, const FilmFormat& fo
 std::string last_line(const std::string& text)
 {
   std::istringstream lines(text);
-  std::string last = "it says nothing";
+  std::string last = "it printed no message";
   for (std::string line; std::getline(lines, line);)
     if (!line.empty()) last = line;
   return printable(last);
@@ -83,7 +85,7 @@ std::string shortened(const std::string& text, std::size_t most)
 {
   constexpr std::string_view left_out = "\n[the middle is left out]\n";
   if (text.size() <= most) return text;
-  const auto inside = [&](std::size_t at) {  // a character of UTF-8
+  const auto inside = [&](std::size_t at) {  // true inside a character of several bytes (UTF-8)
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
   };
   const std::size_t half = (most - left_out.size()) / 2;

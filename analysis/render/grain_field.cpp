@@ -23,36 +23,36 @@ constexpr TrajectoryReader::Fields velocity{.velocity = true, .contacts = false,
 constexpr TrajectoryReader::Fields contacts{.velocity = false, .contacts = true, .force = false};
 constexpr TrajectoryReader::Fields image{.velocity = false, .contacts = false, .force = true};
 
-/// The fields. To add one: a FieldKind, a row here, and its numbers.
+/// All fields. A new field needs a FieldKind, a row here, and a function for its values.
 constexpr FieldDefinition definitions[] = {
     {FieldKind::radius, "radius", "radius of the grain", FieldEnds::least_to_most, "radius", "m",
      nothing},
-    {FieldKind::speed, "speed", "modulus of the velocity", FieldEnds::zero_to_most, "speed", "m/s",
-     velocity},
+    {FieldKind::speed, "speed", "magnitude of the velocity", FieldEnds::zero_to_most, "speed",
+     "m/s", velocity},
     {FieldKind::velocity, "velocity", "component of the velocity: x (default), y or z",
      FieldEnds::both_signs, "velocity along", "m/s", velocity, "[:AXIS]"},
     {FieldKind::spin, "spin", "angular velocity about z, counter-clockwise", FieldEnds::both_signs,
      "spin", "rad/s", velocity},
     {FieldKind::pressure, "pressure",
-     "the grain's share of trace(force x branch)/D summed over its contacts, over its area or "
-     "volume; mixed contacts by --partition",
+     "sum over the grain's contacts of its share of trace(force x branch)/D, divided by its area or "
+     "volume; --partition sets the share in mixed contacts",
      FieldEnds::zero_to_most, "pressure", "N/m", contacts},
-    {FieldKind::contacts, "contacts", "number of its contacts that bear a force",
+    {FieldKind::contacts, "contacts", "number of the grain's contacts with a force",
      FieldEnds::zero_to_most, "contacts", "", contacts},
     {FieldKind::composition, "composition",
-     "share of the largest species in the grains around, weighed by Lucy's function of radius "
-     "LENGTH (default: 2dL)",
+     "share of the largest species among the grains within LENGTH (default: 2dL), weighted by area "
+     "or volume and by Lucy's function",
      FieldEnds::zero_to_one, "share of", "", nothing, "[:LENGTH]"},
-    {FieldKind::displacement, "displacement", "distance from the grain's place at TIME (s)",
+    {FieldKind::displacement, "displacement", "distance of the grain from its position at TIME (s)",
      FieldEnds::zero_to_most, "displacement since t =", "m", image, ":TIME"},
-    {FieldKind::rise, "rise", "y less the grain's y at TIME (s)", FieldEnds::both_signs,
+    {FieldKind::rise, "rise", "change of the grain's y since TIME (s)", FieldEnds::both_signs,
      "rise since t =", "m", nothing, ":TIME"},
 };
 
 constexpr const char* species_word = "species";
 
-/// Refuses an imported run that does not tell how often grains have crossed its periods
-/// (formats/README.md); `time` is the argument of --color displacement.
+/// Throws UsageError if the run is an import that does not store how often grains have crossed its periods
+/// (formats/README.md). `time` is the argument of --color displacement.
 void require_images(const TrajectoryReader& run, const std::string& time)
 {
   const auto& told = run.parameters();
@@ -60,7 +60,7 @@ void require_images(const TrajectoryReader& run, const std::string& time)
   if (!periodic || told.text("import_format").empty() || told.text("import_images") == "known")
     return;
   throw UsageError(fmt::format(
-      "--color displacement:{0}: {1} does not tell how often grains have crossed its "
+      "--color displacement:{0}: {1} does not store how often grains have crossed its "
       "periods; import the run again, from a dump with the columns ix iy iz or xu yu zu, or "
       "choose rise:{0}",
       time, run.path()));
@@ -75,8 +75,8 @@ Eigen::Index axis_of(const std::string& text, int dimension)
                                dimension == 3 ? "x, y and z" : "x and y"));
 }
 
-/// The radius of the neighbourhood, m; no longer than a period, so that a grain has at most one image
-/// beyond each end.
+/// Radius of the neighbourhood for --color composition, m. It is no longer than a period, so that a grain
+/// has at most one image beyond each end.
 double radius_around(const std::string& length, const TrajectoryReader& run)
 {
   const double radius =
@@ -93,8 +93,8 @@ double radius_around(const std::string& length, const TrajectoryReader& run)
   return radius;
 }
 
-/// Position of the grain, m, with the periods that it has crossed, if they were read: a rise does not
-/// need them.
+/// Position of the grain, m, plus the periods that it has crossed if the frame has them; the field rise
+/// does not read them.
 template <int D>
 Vector<D> place(const Frame<D>& frame, std::size_t grain, const Box& box)
 {
@@ -105,7 +105,7 @@ Vector<D> place(const Frame<D>& frame, std::size_t grain, const Box& box)
   return place;
 }
 
-/// Positions of all grains at the time from which displacements count, m.
+/// Positions of all grains, m, at the time from which displacements are measured.
 template <int D>
 std::vector<Vector<D>> places_at(const FieldChoice& choice, const TrajectoryReader& run)
 {
@@ -132,7 +132,7 @@ double about_z(const Vec3& spin)
 template <int D>
 using Values = std::function<std::vector<double>(const Frame<D>&)>;
 
-/// A field whose number is number(frame, g) for each mobile grain g.
+/// Function that computes a field: the value of each mobile grain g is number(frame, g).
 template <int D, class Number>
 Values<D> of_each(const Grains& grains, const Number& number)
 {
@@ -144,14 +144,15 @@ Values<D> of_each(const Grains& grains, const Number& number)
   };
 }
 
-/// A field that sums over the contacts of each mobile grain: parts(frame, k) is the pair of numbers that
-/// contact k adds to its grains.
-template <int D, class Parts>
-Values<D> over_contacts(const Grains& grains, const Parts& parts)
+/// Function that computes a field as a sum over the contacts of each mobile grain for which
+/// counts(frame, k) is true: parts(frame, k) is the pair of numbers that contact k adds to its two grains.
+template <int D, class Counts, class Parts>
+Values<D> over_contacts(const Grains& grains, const Counts& counts, const Parts& parts)
 {
-  return [&grains, parts](const Frame<D>& frame) {
+  return [&grains, counts, parts](const Frame<D>& frame) {
     std::vector<double> sums(grains.size());
     for (std::size_t k = 0; k < frame.contacts.size(); ++k) {
+      if (!counts(frame, k)) continue;
       const auto [i, j] = partners(grains, frame, k);
       const auto [of_i, of_j] = parts(frame, k);
       sums[i] += of_i;
@@ -166,11 +167,13 @@ Values<D> over_contacts(const Grains& grains, const Parts& parts)
 template <int D>
 Values<D> pressures(const Grains& grains, const PartitionRule& rule)
 {
-  const auto traces = over_contacts<D>(grains, [&grains, rule](const Frame<D>& frame, auto k) {
+  const auto all_count = [](const Frame<D>&, auto) { return true; };
+  const auto parts = [&grains, rule](const Frame<D>& frame, auto k) {
     const double trace = frame.contacts.force[k].dot(frame.contacts.branch[k]);
     const auto shares = contact_shares(grains, frame, k, rule);
     return std::pair(shares.i * trace, shares.j * trace);
-  });
+  };
+  const auto traces = over_contacts<D>(grains, all_count, parts);
   return [&grains, traces](const Frame<D>& frame) {
     auto all = traces(frame);
     for (std::size_t g = 0; g < all.size(); ++g) all[g] /= D * grain_volume<D>(grains.radius[g]);
@@ -221,7 +224,7 @@ FieldChoice parse_field(const std::string& text)
   for (const auto& field : definitions) {
     if (word == field.word) {
       if (*field.argument == '\0' && colon != std::string::npos)
-        throw UsageError(fmt::format("--color {}: nothing follows {}", text, word));
+        throw UsageError(fmt::format("--color {}: {} takes no argument", text, word));
       if (field.needs_argument() && argument.empty())
         throw UsageError(
             fmt::format("--color {}: give the time to compare with, as in {}:0", text, word));
@@ -278,10 +281,9 @@ GrainField<D>::GrainField(const FieldChoice& choice, const TrajectoryReader& run
       values_ = pressures<D>(grains, rule);
       break;
     case FieldKind::contacts:
-      values_ = over_contacts<D>(grains, [](const Frame<D>& frame, auto k) {
-        const double counts = bears_force(frame.contacts, k) ? 1 : 0;
-        return std::pair(counts, counts);
-      });
+      values_ = over_contacts<D>(
+          grains, [](const Frame<D>& frame, auto k) { return bears_force(frame.contacts, k); },
+          [](const Frame<D>&, auto) { return std::pair(1.0, 1.0); });
       break;
     case FieldKind::composition: {
       const auto length = choice.argument.empty() ? std::string("2dL") : choice.argument;

@@ -15,7 +15,7 @@
 namespace grseg {
 namespace {
 
-// Places in an item, em from its top: its middle, and the baselines of two lines of text.
+// Heights in an item of the legend, em below its top: its middle, and the baselines of two lines of text.
 constexpr double middle_line = 1.35, upper_line = 0.85, lower_line = 2.45;
 constexpr double small_text = 0.9;
 /// Distance from the middle of a line of text down to its baseline, em.
@@ -88,7 +88,7 @@ LegendItem colour_bar(const Canvas& canvas, const ColourScale& colours, const st
                               small_text);
             const int steps = 256;
             for (int k = 0; k < steps; ++k) {
-              // Each step is painted up to the end of the bar, so that no gaps show.
+              // Each step is painted up to the end of the bar, so that there are no gaps between steps.
               const double from = length * k / steps;
               page.rectangle({left + from, top}, {length - from, height},
                              colours.at_place((k + 0.5) / steps));
@@ -150,13 +150,13 @@ LegendItem remark(const Canvas& canvas, std::string text, const Colour& ink)
 
 namespace {
 
-constexpr double largest_page = 32767;  // px
-// em
+constexpr double largest_page = 32767;  // largest width or height of a page, px
+// Distances on the page, em.
 constexpr double margin = 0.8, gap = 1.0, title_height = 1.7, item_gap = 2.2, line_gap = 0.5,
                  legend_gap = 0.7;
 
-/// Places the items in lines, each in the middle of the page, from `top` (px) down. Returns the height of
-/// all lines, px.
+/// Arranges the items in centred lines, from `top` (px) downwards, and adds their positions to `places`.
+/// Returns the height of all lines, px.
 double place_legend(const std::vector<LegendItem>& items, double width, double em, double top,
                     std::vector<Vec2>& places)
 {
@@ -202,7 +202,7 @@ Page page_of(const PageContent& content, double width, std::size_t columns, doub
   return page;
 }
 
-/// The page whose shape is nearest to 3:2, among all numbers of columns; empty places count against one.
+/// The best page among all numbers of columns: its shape is near to 3:2 and few places for panels are empty.
 Page best_page(const PageContent& content, double width, double em)
 {
   Page best;
@@ -232,7 +232,7 @@ double usual_em(double width)
 Page lay_out(const PageContent& content, std::optional<double> width, double em, bool even)
 {
   auto page = best_page(content, width.value_or(usual_page), em);
-  // Found by repetition: letters keep their size, so that the height is not proportional to the width.
+  // The width is found by iteration: letters do not scale, so the height is not proportional to the width.
   for (int k = 0; k < 20 && !width && page.size.y() > usual_page; ++k)
     page = best_page(content, page.size.x() * std::min(0.99, usual_page / page.size.y()), em);
   if (even) page.size = (page.size / 2).array().ceil() * 2;

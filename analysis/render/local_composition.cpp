@@ -12,8 +12,8 @@
 namespace grseg {
 namespace {
 
-/// Number of a strip along x, counted along y and, in three dimensions, along z. Whole numbers, but
-/// doubles: a height may be any multiple of the radius.
+/// Index of a strip that runs along x: its number along y and, in three dimensions, along z. Whole numbers
+/// stored as doubles, because a height may be an arbitrarily large multiple of the radius.
 using Strip = std::array<double, 2>;
 
 /// A mobile grain, or an image of it beyond an end of a period.
@@ -26,8 +26,8 @@ struct Image {
   auto key() const { return std::make_tuple(strip, centre.x()); }
 };
 
-/// Mobile grains and their images within a radius of the cell, sorted by strip, then by x. Strips lie
-/// along x and are no narrower than the radius.
+/// Mobile grains and their periodic images that lie within a radius of the cell, sorted by strip, then by x.
+/// Strips run along x and are no narrower than the radius.
 template <int D>
 class NearGrains {
  public:
@@ -41,7 +41,7 @@ class NearGrains {
     std::ranges::sort(images_, {}, &Image<D>::key);
   }
 
-  /// Calls book(grain, distance) for each grain or image nearer to `centre` than the radius; m.
+  /// Calls book(grain, distance in m) for each grain or image nearer to `centre` (m) than the radius.
   template <class Book>
   void visit(const Vector<D>& centre, const Book& book) const
   {
@@ -75,7 +75,7 @@ class NearGrains {
         images_.push_back({strip_of(moved), moved, grain});
       }
   }
-  /// Shifts along an axis that give the images of a grain at `place`, m; the first one, 0, is the grain.
+  /// Shifts along an axis, m, from a grain at `place` to its images; the first shift, 0, is the grain itself.
   std::vector<double> shifts(double place, bool periodic, double length) const
   {
     std::vector<double> all{0};

@@ -7,7 +7,7 @@
 namespace grseg {
 namespace {
 
-/// Smallest radius of a grain with a rim, px; of a smaller grain the rim would be all that one sees.
+/// Smallest radius of a grain that is painted with a rim, px; the rim would cover a smaller grain.
 constexpr double least_rimmed = 2.5;
 
 void paint_grain(Canvas& canvas, const Vec2& centre, double radius, const Colour& colour,
@@ -25,7 +25,7 @@ void paint_grain(Canvas& canvas, const Vec2& centre, double radius, const Colour
 void paint_wall(Canvas& canvas, const WallLine& wall, const Region& region,
                 const Projection& to_page, const Theme& theme)
 {
-  // The line of the wall, from far beyond one side of the region to far beyond the other.
+  // The wall is a line from far beyond one side of the region to far beyond the opposite side.
   const Vec2 middle = (region.low + region.high) / 2;
   const Vec2 foot = middle - (middle - wall.point).dot(wall.normal) * wall.normal;
   const Vec2 along = region.size().norm() * Vec2(-wall.normal.y(), wall.normal.x());
@@ -35,7 +35,7 @@ void paint_wall(Canvas& canvas, const WallLine& wall, const Region& region,
   canvas.line(from, to, canvas.em() / 9, theme.ink);
 }
 
-/// Dashes the ends of periods that lie in the region.
+/// Paints dashed lines at the ends of periods that lie in the region.
 void paint_periods(Canvas& canvas, const View& view, const Projection& to_page, const Theme& theme)
 {
   const auto& region = view.region;

@@ -17,7 +17,8 @@ namespace {
 // Share of the background that is mixed into grains under lines, so that lines stand out.
 constexpr double pale_species = 0.62, pale_field = 0.45;
 
-/// Number of decimals with which the pictures' times differ; one picture: the times of neighbouring frames.
+/// Number of decimals with which the times of the pictures differ; for a single picture, the number with
+/// which the times of neighbouring frames differ.
 int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& frames)
 {
   const auto& times = run.times();
@@ -30,8 +31,8 @@ int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& fra
   return std::clamp(static_cast<int>(std::ceil(-std::log10(between) - 0.01)), 0, 6);
 }
 
-/// Region shown by default: the whole period along a periodic axis; elsewhere as far as grains reach,
-/// with a margin of a third of the largest diameter.
+/// Region shown by default: the whole period along a periodic axis; along another axis as far as grains
+/// reach, plus a margin of a third of the largest diameter.
 template <int D>
 Region whole_region(const Survey<D>& survey, const View& view)
 {
@@ -68,7 +69,7 @@ Picture<D>::Picture(const TrajectoryReader& run, const GroupedGrains& grains,
 {
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
   if (!(survey_.largest_diameter > 0))
-    throw RunError(fmt::format("{}: there are no grains to be seen", run.path()));
+    throw RunError(fmt::format("{}: the run has no grains to draw", run.path()));
   view_.region = whole_region(survey_, view_);
   if (!settings.region.empty())
     view_.region = parse_region(settings.region, view_, view_.region, units);
@@ -78,8 +79,8 @@ Picture<D>::Picture(const TrajectoryReader& run, const GroupedGrains& grains,
   decimals_ = decimals_of(run, frames);
   gravity_ = view_.flat<D>(run.gravity<D>().at(survey_.times.front()));
   if (settings.tilt && !(gravity_.norm() > 0))
-    throw UsageError("--tilt: gravity has no part in the plane of the picture");
-  // One arrow serves all panels, unless gravity turns between them.
+    throw UsageError("--tilt: gravity has no component in the plane of the picture");
+  // One arrow for all panels is enough, unless gravity turns between panels.
   const bool common = panels == 1 || settings.tilt || !run.gravity<D>().turns();
   shows_gravity_ = common && gravity_.norm() > 0;
   lay_out_page(panels);
@@ -177,7 +178,7 @@ template <int D>
 std::vector<LegendItem> Picture<D>::legend(double scale, const Vec2& panel, double width,
                                            const Vec2& gravity) const
 {
-  // The surface is only there to measure letters.
+  // This surface only measures letters.
   const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, 1, 1));
   const Canvas canvas(surface.get(), settings_.em);
   const auto& ink = theme_.ink;

@@ -22,39 +22,39 @@ namespace grseg {
 
 /// Content and look of the pictures of a run.
 struct PictureSettings {
-  FieldChoice field;           // that gives grains their colours
-  std::optional<Range> range;  // of the field's colours
-  bool forces = false;         // contacts as lines
-  double line_width = 0;       // m, of a contact with strong_force()
-  PartitionRule rule;          // of the field pressure, and of lines that are split
-  bool split_lines = false;
-  std::string region, slice;  // as typed; "": the default
+  FieldChoice field;           // field that sets the colours of grains
+  std::optional<Range> range;  // values at the ends of the colour scale; none: FieldEnds
+  bool forces = false;         // true: contacts are drawn as lines
+  double line_width = 0;       // line width of a contact with the force strong_force(), m
+  PartitionRule rule;          // rule for the field pressure and for split lines
+  bool split_lines = false;    // true: lines of mixed contacts are divided by `rule`
+  std::string region, slice;   // texts of --region and --slice; "": the default
   Plane plane = Plane::xy;
-  bool project = false;  // all of the depth instead of a slice
-  bool tilt = false;     // gravity points down the page
+  bool project = false;  // true: grains at any depth are drawn, not only those in a slice
+  bool tilt = false;     // true: the picture is turned so that gravity points down the page
   Theme theme = themes[0].value;
   bool no_time = false, no_scale = false, no_bar = false;
   bool is_film = false;
-  std::optional<double> width;  // px
-  double em = 18;               // px
+  std::optional<double> width;  // width of the page, px
+  double em = 18;               // size of letters, px
 };
 
-/// Pictures of frames of one run, which share view, colours, widths of lines and page.
+/// Pictures of frames of one run. All have the same view, colours, line widths and page layout.
 template <int D>
 class Picture {
  public:
-  /// `frames`: numbers of all frames that will be drawn. `panels`: frames on one page. UsageError where
-  /// a setting does not fit the run. Both run and grains must outlive this.
+  /// `frames`: numbers of all frames that will be drawn. `panels`: number of frames on one page. Throws
+  /// UsageError if a setting does not fit the run. `run` and `grains` must outlive this object.
   Picture(const TrajectoryReader& run, const GroupedGrains& grains,
           const std::vector<std::size_t>& frames, std::size_t panels,
           const PictureSettings& settings);
 
   const Page& page() const { return page_; }
-  /// Parts of a frame that must be read for draw().
+  /// Data of a frame that must be read before draw() is called.
   TrajectoryReader::Fields needs() const { return survey_.needs; }
-  /// Drawing of a frame. Several threads may call it at once.
+  /// Drawing of a frame. Several threads may call this function at once.
   Drawing draw(const Frame<D>& frame) const;
-  /// Paints as many drawings as there are panels.
+  /// Paints one drawing per panel, and the legend.
   void paint(cairo_surface_t* surface, std::span<const Drawing> drawings) const;
 
  private:
@@ -65,20 +65,20 @@ class Picture {
   std::vector<LegendItem> legend(double scale, const Vec2& panel, double width,
                                  const Vec2& gravity) const;
   std::string slab_text() const;
-  /// Angle by which a picture with this gravity is turned, rad, counter-clockwise.
+  /// Angle by which a picture is turned if gravity has this direction, rad, counter-clockwise.
   double angle(const Vec2& gravity) const;
 
   const TrajectoryReader& run_;
   const GroupedGrains& grains_;
   PictureSettings settings_;
-  const Theme& theme_;  // of settings_
+  const Theme& theme_;  // the theme in settings_
   std::optional<GrainField<D>> field_;
   Survey<D> survey_;
   View view_;
   DrawingStyle style_;
-  double strong_force_ = 0;  // N
-  int decimals_ = 0;         // of times
-  Vec2 gravity_;             // m/s^2, of the first picture, in the plane
+  double strong_force_ = 0;  // result of strong_force(), N
+  int decimals_ = 0;         // number of decimals of times
+  Vec2 gravity_;             // gravity in the first picture, its component in the plane, m/s^2
   bool shows_gravity_ = false;
   Page page_;
 };

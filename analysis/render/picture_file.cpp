@@ -44,11 +44,11 @@ std::string big_endian(std::uint32_t number)
   return bytes;
 }
 
-/// A chunk of a PNG that holds text in UTF-8 (PNG 1.2, section 4.2.3.3).
+/// PNG chunk with text in UTF-8 (PNG 1.2, section 4.2.3.3).
 std::string text_chunk(const std::string& keyword, const std::string& text)
 {
   const std::string zero(1, '\0');
-  // Not compressed, in no particular language.
+  // The zero bytes mean: not compressed, no language given.
   const auto typed = "iTXt" + keyword + zero + zero + zero + zero + zero + text;
   const auto length = static_cast<std::uint32_t>(typed.size() - 4);
   return big_endian(length) + typed + big_endian(libdeflate_crc32(0, typed.data(), typed.size()));
@@ -60,7 +60,7 @@ std::string png_bytes(const Vec2& size, const std::string& history, const Paint&
   paint(surface.get());
   std::string bytes;
   require_success(cairo_surface_write_to_png_stream(surface.get(), append, &bytes));
-  // Bytes of the signature and of the first chunk, IHDR.
+  // Size of the signature and of the first chunk, IHDR, bytes.
   constexpr std::size_t begin = 8 + 25;
   bytes.insert(begin, text_chunk("Description", history));
   return bytes;
@@ -75,7 +75,7 @@ std::string vector_bytes(PictureKind kind, const Vec2& size, double points,
   CairoSurface surface(create(append, &bytes, points * size.x(), points * size.y()));
   require_success(cairo_surface_status(surface.get()));
   if (kind == PictureKind::pdf) {
-    // No date: it would make the bytes of each file different.
+    // Without a date, since a date would make the bytes of each file different.
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT, history.c_str());
   }
@@ -118,7 +118,7 @@ Pixels::Pixels(const Vec2& size, const Paint& paint) : surface_(image_surface(si
 
 std::span<const std::uint8_t> Pixels::bytes() const
 {
-  // The stride is the length of a row: with four bytes per pixel there are no gaps.
+  // The stride is the length of a row, bytes; with four bytes per pixel there are no gaps between rows.
   const auto row = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
   const auto rows = static_cast<std::size_t>(cairo_image_surface_get_height(surface_.get()));
   return {cairo_image_surface_get_data(surface_.get()), row * rows};

@@ -25,19 +25,19 @@ inline bool is_film(PictureKind kind)
 {
   return kind == PictureKind::mp4 || kind == PictureKind::webm;
 }
-/// Format of the file `path`. UsageError where its name ends in none of these.
+/// Format of the file `path`. Throws UsageError if the name has another extension.
 PictureKind picture_kind(const std::string& path);
 
-/// Paints on a surface whose unit is the pixel.
+/// Function that paints a picture on a surface whose unit is the pixel.
 using Paint = std::function<void(cairo_surface_t*)>;
 
-/// Bytes of a picture file; `kind` is no film, `size` in pixels (whole numbers). SVG and PDF have `points`
-/// points (1/72 inch) for each pixel. `history` is kept inside as text: in PNG as Description, in SVG
-/// as desc, in PDF as subject. The same content gives the same bytes. RunError where cairo fails.
+/// Bytes of a picture file. `kind` is not a film; `size` in pixels (whole numbers). `points`: size of a
+/// pixel in SVG and PDF, points (1/72 inch). The file stores `history` as text: PNG as Description, SVG as
+/// desc, PDF as subject. Equal content gives equal bytes. Throws RunError if cairo fails.
 std::string picture_bytes(PictureKind kind, const Vec2& size, double points,
                           const std::string& history, const Paint& paint);
 
-/// A picture as pixels, row by row, four bytes each: blue, green, red, and one without meaning.
+/// A picture as pixels, row by row. A pixel has four bytes: blue, green, red, and an unused one.
 class Pixels {
  public:
   Pixels(const Vec2& size, const Paint& paint);

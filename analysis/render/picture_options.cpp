@@ -25,10 +25,10 @@ Range parse_range(const std::string& text)
       return {*low, *high};
   }
   throw UsageError(fmt::format(
-      "--range '{}': write the numbers of the first and the last colour, as in 0:0.5", text));
+      "--range '{}': write the values of the first and the last colour, as in 0:0.5", text));
 }
 
-/// "start", "end" or a time in s.
+/// Number of the frame at `word`: "start", "end" or a time in s.
 std::size_t frame_at(const TrajectoryReader& run, const std::string& word)
 {
   if (word == "start") return 0;
@@ -47,39 +47,43 @@ void PictureOptions::add_to(po::options_description& options)
     return place.empty() ? value : value->default_value(place);
   };
   add("at", po::value(&at)->composing()->value_name("TIME,..."),
-      "times (s) of a picture, start or end; several make panels of one picture (default: end)");
+      "time of the picture: seconds, start or end; several times give one panel each (default: end)");
   add("color", word_option(&color, words_of_fields()), list_of_fields().c_str());
   add("range", text(range, "a:b"),
-      "numbers of the first and the last colour (default: round numbers that leave out the last "
-      "hundredth)");
+      "values of the first and the last colour (default: round numbers; 1 % of the values may lie "
+      "beyond)");
   add("forces", po::bool_switch(&plain.forces),
       "draw contacts as lines between the grains' centres, as wide as their normal force");
   add("force-width", text(force_width, "LENGTH"),
-      "width that 99 of 100 lines do not exceed, counted over up to 16 of the frames");
+      "line width of a strong contact: 99 % of the contacts, in up to 16 of the frames, have "
+      "thinner lines");
   add("partition", word_option(&partition, words_of_rule()),
-      ("with --forces: lines have the colours of the species, and mixed contacts are split where "
-       "the rule divides them; with --color pressure: parts of mixed contacts for their grains; " +
-       list_of_rules() + " (default of pressure: size)")
+      ("partition rule: with --forces, lines have the colours of the species, and the rule splits the "
+       "lines of mixed contacts; with --color pressure, the rule shares mixed contacts; " +
+       list_of_rules() + " (default for pressure: size)")
           .c_str());
   add("region", text(plain.region, "x0:x1,y0:y1"),
-      "part to show, in lengths such as 10dS; beyond a period the cell is repeated (default: all)");
+      "part of the run to show, in lengths such as 10dS; beyond a period the cell is repeated "
+      "(default: all)");
   add("plane", word_option(&plane, words_of(planes)),
-      ("in three dimensions: axis to the right and axis up the page, " + list_of(planes)).c_str());
+      ("in three dimensions: the axis that points right and the axis that points up, " +
+       list_of(planes))
+          .c_str());
   add("slice", text(plain.slice, "z0:z1"),
-      "in three dimensions: only grains with their centre in this range of the third axis (default: "
-      "as thick as the largest grain, in the middle)");
+      "in three dimensions: show only grains whose centres lie in this range of the third axis "
+      "(default: as thick as the largest grain, in the middle)");
   add("project", po::bool_switch(&plain.project),
-      "in three dimensions: all grains, the nearest in front");
+      "in three dimensions: show all grains, the nearest in front");
   add("tilt", po::bool_switch(&plain.tilt),
       "turn the picture so that gravity points down the page (default: x points to the right)");
   add("theme", word_option(&theme, words_of(themes)), list_of(themes).c_str());
   add("width", text(width, "N"),
-      "width in pixels, or on paper, 86mm, 8.6cm or 3.4in, with letters of 8 points (default: 1280 "
-      "pixels, less where the picture would be higher than that)");
+      "width in pixels; or on paper, e.g. 86mm, 8.6cm or 3.4in, with letters of 8 points (default: 1280 "
+      "pixels, or less so that the height is at most 1280 pixels)");
   add("no-time", po::bool_switch(&plain.no_time), "leave out the time");
   add("no-scale", po::bool_switch(&plain.no_scale),
       "leave out the scale bar, the direction of gravity and the slice");
-  add("no-bar", po::bool_switch(&plain.no_bar), "leave out the key of colours and lines");
+  add("no-bar", po::bool_switch(&plain.no_bar), "leave out the legend of colours and line widths");
 }
 
 PictureSettings PictureOptions::settings(const TrajectoryReader& run) const
@@ -88,7 +92,8 @@ PictureSettings PictureOptions::settings(const TrajectoryReader& run) const
   auto s = plain;
   s.field = parse_field(color);
   if (!range.empty()) {
-    if (s.field.is_species()) throw UsageError("--range: species have no range; choose a --color");
+    if (s.field.is_species())
+      throw UsageError("--range: species have no range; choose a field with --color");
     s.range = parse_range(range);
   }
   if (s.forces) s.line_width = parse_length(force_width, "--force-width", units);

@@ -12,30 +12,30 @@
 
 namespace grseg {
 
-/// Options of the command line about pictures.
+/// Options of the command line that set how pictures look.
 struct PictureOptions {
   std::vector<std::string> at;
   std::string color = "species", range, partition, force_width = "0.6dS", plane = "xy",
               theme = "light", width;
-  PictureSettings plain;  // settings that need no parsing; the others keep their defaults
+  PictureSettings plain;  // settings that need no parsing; all other settings have their defaults
 
   void add_to(po::options_description& options);
 
-  /// The settings for a run. UsageError where an option has a value that it does not take.
+  /// Settings for a run. Throws UsageError if an option has a wrong value.
   PictureSettings settings(const TrajectoryReader& run) const;
-  /// Numbers of the frames nearest to --at, by default the last one. UsageError where the run has no
-  /// such time.
+  /// Numbers of the frames nearest to the times of --at; by default the last frame. Throws UsageError if a
+  /// time lies outside of the run.
   std::vector<std::size_t> frames_at(const TrajectoryReader& run) const;
 };
 
-/// --width: pixels, or the width of a printed page.
+/// Page width and sizes that follow from the option --width.
 struct PageWidth {
   std::optional<double> pixels;
-  double em;      // px
-  double points;  // for each pixel
+  double em;      // size of letters, px
+  double points;  // size of a pixel on paper, points (1/72 inch)
 };
-/// Reads a width: pixels, "1280", or a length on paper, "86mm", "8.6cm" or "3.4in", with 300 pixels an inch
-/// and letters of 8 points; "" is the default. UsageError where the text is none of these.
+/// Reads a width: pixels, "1280"; or a length on paper, "86mm", "8.6cm" or "3.4in", with 300 pixels per inch
+/// and letters of 8 points; or "", the default. Throws UsageError for any other text.
 PageWidth parse_width(const std::string& text);
 
 }  // namespace grseg

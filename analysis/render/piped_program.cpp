@@ -23,10 +23,10 @@
 namespace grseg {
 namespace {
 
-constexpr int patience = 50;  // ms between looks for an interruption
+constexpr int patience = 50;  // time between checks for an interruption, ms
 
-/// Starts the program words[0] with these files as standard input and error. Returns 0, or the error as
-/// in errno.
+/// Starts the program words[0]; the file descriptors `input` and `errors` become its standard input and
+/// error. Returns 0, or an error number as in errno.
 int spawn(pid_t& process, std::vector<std::string> words, int input, int errors)
 {
   posix_spawn_file_actions_t files;
@@ -75,7 +75,7 @@ PipedProgram::PipedProgram(const std::string& path, const std::vector<std::strin
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     throw RunError(fmt::format("cannot make a pipe: {}", reason(errno)));
-  // A write that cannot go on returns, so that an interruption is noticed while the program reads nothing.
+  // A write that cannot continue returns, so that an interruption is noticed while the program does not read.
   fcntl(ends[1], F_SETFL, O_NONBLOCK);
   std::signal(SIGPIPE, SIG_IGN);
   std::vector<std::string> words{path};

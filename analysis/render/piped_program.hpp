@@ -13,39 +13,38 @@
 
 namespace grseg {
 
-/// Path of the program `name` in the folders of PATH, or nothing.
+/// Path of the program `name`, searched in the folders of PATH; nothing if there is none.
 std::optional<std::string> find_program(const std::string& name);
 
-/// A program that reads its standard input from a pipe that we write. It is started without a shell, and
-/// in a process group of its own, so that Ctrl-C reaches us alone.
+/// A running program whose standard input is a pipe that this class writes. The program is started without
+/// a shell and in a process group of its own, so that Ctrl-C does not reach it.
 class PipedProgram {
  public:
-  /// `path` as find_program() gives it; RunError where it cannot be started. SIGPIPE is ignored from here
-  /// on: write() tells if the program has stopped reading.
+  /// Starts the program; `path` as find_program() returns it. Throws RunError if it cannot be started.
+  /// SIGPIPE is ignored from now on: write() reports whether the program has stopped reading.
   PipedProgram(const std::string& path, const std::vector<std::string>& arguments);
   PipedProgram(const PipedProgram&) = delete;
   PipedProgram& operator=(const PipedProgram&) = delete;
-  /// Kills the program, unless finish() has waited for it.
+  /// Kills the program, unless finish() has waited for its end.
   ~PipedProgram();
 
-  /// Writes all bytes; false if the program reads no more. Throws Interruption, as stop_if_interrupted()
-  /// does, also while the program does not read.
+  /// Writes all bytes; returns false if the program has stopped reading. Throws Interruption, as
+  /// stop_if_interrupted() does, even while it waits for the program to read.
   bool write(std::span<const std::uint8_t> bytes);
 
-  /// End of the program: its exit code, or 128 and the number of the signal that ended it; and its words on
-  /// standard error.
+  /// Result of the program after its end.
   struct End {
-    int code;
-    std::string said;
+    int code;          // exit code, or 128 plus the number of the signal that ended the program
+    std::string said;  // text that the program wrote to standard error
   };
-  /// Ends the program's input and waits for its end; Interruption as above.
+  /// Closes the program's input and waits for its end. Throws Interruption as write() does.
   End finish();
 
  private:
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  /// The code as in End, nothing if the program still runs; with `wait`, waits for its end.
+  /// End::code, or nothing if the program still runs; with `wait`, waits for its end.
   std::optional<int> ended(bool wait);
 
   std::unique_ptr<std::FILE, Closer> errors_;  // temporary file with its standard error

@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// Warns where frames are further apart than --every: the film is then faster than asked.
+/// Warns if frames are further apart than --every, because the film is then faster than asked.
 void warn_if_sparse(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                     const RenderSettings& s)
 {
@@ -24,10 +24,11 @@ void warn_if_sparse(const TrajectoryReader& run, const std::vector<std::size_t>&
   const double length = run.times()[frames.back()] - run.times()[frames.front()];
   const double apart = length / static_cast<double>(frames.size() - 1);
   if (apart > s.every + run.step() / 2)
-    fmt::print(stderr,
-               "{}: the frames are {:.3g} s apart, so that --every {:g} takes all of them and the "
-               "film is {:.3g} times as fast as asked; --fps {:.3g} keeps the speed\n",
-               s.program, apart, s.every, apart / s.every, s.fps * s.every / apart);
+    fmt::print(
+        stderr,
+        "{}: the frames are {:.3g} s apart, so --every {:g} shows all of them and the film is "
+        "{:.3g} times as fast as asked; to keep the speed use --fps {:.3g}\n",
+        s.program, apart, s.every, apart / s.every, s.fps * s.every / apart);
 }
 
 std::vector<std::size_t> frames_of_film(const TrajectoryReader& run, const RenderSettings& s)

@@ -13,11 +13,11 @@
 namespace grseg {
 
 struct RenderSettings {
-  const char* program = "";  // name in messages
+  const char* program = "";  // name of the program in messages
   PictureOptions picture;
-  FrameRange range;            // of a film
-  double every = 0, fps = 25;  // of a film: s of the run from picture to picture, pictures per s
-  int threads = 1;             // of a film, at least 1
+  FrameRange range;            // frames of a film
+  double every = 0, fps = 25;  // of a film: simulated time between pictures, s; pictures per s
+  int threads = 1;             // number of threads for a film, at least 1
   OutputOptions output;
   bool quiet = false;
 };
@@ -27,15 +27,16 @@ struct RenderSource {
   const GroupedGrains& grains;
   const RenderSettings& settings;
   PictureKind kind;
-  std::string history;  // kept in the file
+  std::string history;  // text that the file stores, see picture_bytes() and FilmFormat
 };
 
-/// Makes a picture of the frames of --at, side by side. Errors as Picture, PictureOptions and write_whole.
+/// Makes a picture of the frames of --at, side by side. Throws the errors of Picture, PictureOptions and
+/// write_whole().
 template <int D>
 void make_picture(const RenderSource& source);
 
-/// Makes a film of the frames of the range, with a picture for each span of `every`. UsageError where
-/// `every` is negative; errors as Picture, Film and Output; Interruption.
+/// Makes a film of the frames in `range`, with one picture for each span of `every` seconds. Throws
+/// UsageError if `every` is negative, Interruption, and the errors of Picture, Film and Output.
 template <int D>
 void make_film(const RenderSource& source);
 

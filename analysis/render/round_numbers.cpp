@@ -12,7 +12,7 @@ namespace {
 
 constexpr double round_off = 1e-9;
 
-/// Round number: 1, 2 or 5 times a power of ten. `number` counts them in order of size; 0 is 1, -1 is 0.5.
+/// Round number with index `number`: indices are in order of size; index 0 is 1, index -1 is 0.5.
 double round_number(long number)
 {
   constexpr double factors[] = {1, 2, 5};
@@ -22,7 +22,7 @@ double round_number(long number)
   return exponent < 0 ? factor / power : factor * power;
 }
 
-/// Number of a round number (as above) below `value`, by less than a power of ten.
+/// Index (see round_number()) of a round number that is below `value` by less than a factor of ten.
 long number_below(double value)
 {
   return 3 * static_cast<long>(std::floor(std::log10(value))) - 1;
@@ -33,7 +33,7 @@ int exponent_of(double value)
   return static_cast<int>(std::floor(std::log10(value) + round_off));
 }
 
-/// Unit for a length, in metres, and its name.
+/// Unit that suits a length: size of the unit, m, and its name.
 std::pair<double, const char*> unit_of(double metres)
 {
   if (metres < 0.01 * (1 - round_off)) return {1e-3, "mm"};
@@ -76,7 +76,7 @@ std::vector<double> ticks(const Range& range, int most)
     const double first = std::ceil(range.low / step - round_off);
     const double last = std::floor(range.high / step + round_off);
     if (last - first >= most) continue;
-    // Products, since sums add up round-off; and 0 is never negative.
+    // Products instead of sums, which would add up round-off; 0.0, because 0 * step may be -0.
     for (long k = std::lround(first); k <= std::lround(last); ++k)
       all.push_back(k == 0 ? 0.0 : static_cast<double>(k) * step);
     return all;
@@ -88,7 +88,7 @@ std::vector<std::string> tick_labels(const std::vector<double>& ticks)
   double largest = 0;
   for (const double tick : ticks) largest = std::max(largest, std::abs(tick));
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : largest;
-  const int last = exponent_of(step);  // the power of ten of the last digit that counts
+  const int last = exponent_of(step);  // power of ten of the last digit that is written
   const bool plain = largest < 1e5 && (step >= 1e-3 || largest >= 1e-2);
   const int digits = std::clamp(plain ? -last : exponent_of(largest) - last + 1, plain ? 0 : 1, 17);
   std::vector<std::string> labels;

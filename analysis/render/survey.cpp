@@ -22,7 +22,8 @@ std::vector<std::size_t> evenly_spread(const std::vector<std::size_t>& frames)
   return some;
 }
 
-/// Quantile: the share `share` of all values lies below it. `values` has at least one, and is reordered.
+/// Quantile: the number below which the share `share` of all values lies. `values` is not empty, and is
+/// reordered.
 double quantile(std::vector<double>& values, double share)
 {
   const auto last = static_cast<double>(values.size() - 1);

@@ -17,14 +17,13 @@ double period_along(Eigen::Index axis, const Box& box)
   return 0;
 }
 
-/// Reads "a:b", two lengths; one that is left out is taken from `otherwise`, m.
+/// Reads two lengths, "a:b"; a length that is left out is taken from `otherwise`, m.
 Range parse_span(const std::string& text, const Range& otherwise, const std::string& option,
                  LengthUnits units)
 {
   const auto colon = text.find(':');
   if (colon == std::string::npos)
-    throw UsageError(
-        fmt::format("{} '{}': write where it begins and ends, as in 0:20dS", option, text));
+    throw UsageError(fmt::format("{} '{}': write its begin and end, as in 0:20dS", option, text));
   const auto end = [&](const std::string& word, double other) {
     return word.empty() ? other : parse_length(word, option, units);
   };
@@ -78,7 +77,7 @@ Region parse_region(const std::string& text, const View& view, const Region& who
     const auto range =
         parse_span(words[axis], {whole.low[axis], whole.high[axis]}, "--region", units);
     if (view.period(axis) > 0 && range.length() > most_periods * view.period(axis))
-      throw UsageError(fmt::format("--region '{}': that is more than {:g} periods of {:.6g} m",
+      throw UsageError(fmt::format("--region '{}': it spans more than {:g} periods of {:.6g} m",
                                    text, most_periods, view.period(axis)));
     region.low[axis] = range.low;
     region.high[axis] = range.high;

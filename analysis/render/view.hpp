@@ -10,10 +10,10 @@
 #include <cmath>
 #include <optional>
 
-/// The part of the cell that a picture shows, and the direction from which.
+/// Part of the cell that a picture shows, and the direction of view.
 namespace grseg {
 
-/// The plane of a picture: its first axis points to the right, its second one up the page.
+/// Plane of a picture, named by its axes: the first one points to the right, the second one up the page.
 enum class Plane { xy, zy, zx };
 inline constexpr Choice<Plane> planes[] = {{"xy", Plane::xy, "from the side"},
                                            {"zy", Plane::zy, "down the slope"},
@@ -25,41 +25,41 @@ struct Region {
   Vec2 size() const { return high - low; }
 };
 
-/// A look at the cell along the axis that is not in the picture's plane, from far away.
+/// Parallel projection of the cell along the axis that is perpendicular to the picture, the depth axis.
 class View {
  public:
   View(Plane plane, const Box& box);
 
-  /// Components along the axes of the plane, m.
+  /// Components of a vector along the two axes of the plane, in the unit of the vector.
   template <int D>
   Vec2 flat(const Vector<D>& vector) const
   {
     return {vector[right_], vector[up_]};
   }
-  /// Coordinate towards the viewer, m: the larger, the nearer. Nothing outside of the slab.
+  /// Coordinate towards the viewer, m; larger means nearer. Nothing if `position` lies outside of the slab.
   template <int D>
   std::optional<double> nearness(const Vector<D>& position) const;
 
-  /// The axis looked along: its number and its name.
+  /// Depth axis: its number (0 to 2) and its name (x, y or z).
   Eigen::Index depth_axis() const { return depth_; }
   char depth() const { return "xyz"[depth_]; }
-  /// Period along an axis of the plane, 0 or 1, m; 0: it has none.
+  /// Period along an axis of the plane (`axis` 0 or 1), m; 0 if the axis is not periodic.
   double period(int axis) const { return period_[static_cast<std::size_t>(axis)]; }
   double depth_period() const { return depth_period_; }
 
-  /// Part of the plane that is shown. Beyond a period the cell is repeated.
+  /// Part of the plane that the picture shows. Beyond a period the cell is repeated.
   Region region;
-  /// Range along the axis looked along, m, whose grains are shown; nothing: all of it.
+  /// Range of the depth axis in which grains are shown, m; nothing: grains at any depth are shown.
   std::optional<Range> slab;
 
-  /// Calls place(shift) for each shift by whole periods (m) that brings a part of the rectangle from
-  /// `low` to `high` (m, in the plane) into the region.
+  /// Calls place(shift) for each shift by whole periods (m) that moves a part of the rectangle from `low`
+  /// to `high` (m, in the plane) into the region.
   template <class Place>
   void for_images(const Vec2& low, const Vec2& high, const Place& place) const;
 
  private:
   Eigen::Index right_, up_, depth_;
-  double towards_;  // 1 if the axis looked along points to the viewer, else -1
+  double towards_;  // 1 if the depth axis points to the viewer, else -1
   std::array<double, 2> period_;
   double depth_period_;
 };
@@ -67,7 +67,7 @@ class View {
 template <class Place>
 void View::for_images(const Vec2& low, const Vec2& high, const Place& place) const
 {
-  // Multiples of the period; one of them where there is none.
+  // First and last multiple of the period; both are 0 if the axis is not periodic.
   std::array<double, 2> first{}, last{};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
@@ -83,12 +83,12 @@ void View::for_images(const Vec2& low, const Vec2& high, const Place& place) con
       place(Vec2(static_cast<double>(a) * period_[0], static_cast<double>(b) * period_[1]));
 }
 
-/// Reads a region, "x0:x1,y0:y1"; an end that is left out is taken from `whole`. UsageError where the
-/// text is no region, or where it repeats a period of the view more than 20 times.
+/// Reads a region, "x0:x1,y0:y1"; an end that is left out is taken from `whole`. Throws UsageError if the
+/// text is no region, or if the region spans more than 20 periods of the view.
 Region parse_region(const std::string& text, const View& view, const Region& whole,
                     LengthUnits units);
 
-/// Reads a slab, "z0:z1". UsageError where the text is none.
+/// Reads a slab, "z0:z1". Throws UsageError if the text is no slab.
 Range parse_slab(const std::string& text, LengthUnits units);
 
 }  // namespace grseg

@@ -17,19 +17,20 @@
 namespace grseg {
 namespace {
 
-// Beyond this correlation the errors of both coefficients are over three times the error of one
-// alone.
+// Correlation of the regressors above which the error of a coefficient is more than three times its
+// error with the other coefficient known.
 constexpr double collinear = 0.95;
 
-/// A number and what each window's noise adds to it.
+/// A number that is linear in the noise of the windows.
 struct Linear {
   double value = no_number;
-  Eigen::VectorXd influence;
-  Eigen::VectorXd weight;          // of the windows in it
-  std::vector<Linear> parts = {};  // of what it was combined
+  Eigen::VectorXd influence;       // contribution of each window's noise to the number
+  Eigen::VectorXd weight;          // weight of each window in the number
+  std::vector<Linear> parts = {};  // numbers from which this one was computed
 };
 
-/// The worst dependence of `of` and its parts, whose noises may hide each other's correlation.
+/// The worst dependence of windows in `of` and in its parts. Noises of two parts may cancel and so
+/// hide a correlation in time.
 Dependence dependence_of(const Linear& of, const RunLengths& runs)
 {
   auto how = dependence(of.influence, of.weight, runs);
@@ -37,13 +38,13 @@ Dependence dependence_of(const Linear& of, const RunLengths& runs)
   return how;
 }
 
-/// df of a function f of such numbers, with its derivatives by them.
+/// A function of several numbers, with its value, and its derivative by each number.
 Linear combined(double value, const std::vector<std::pair<double, const Linear*>>& parts)
 {
   Linear of{value, Eigen::VectorXd::Zero(parts.front().second->influence.size()),
             parts.front().second->weight};
   for (const auto& [derivative, part] : parts) of.influence += derivative * part->influence;
-  constexpr double none = 1e-6;  // a part of the noise that is as good as none
+  constexpr double none = 1e-6;  // relative norm below which the noise of a part is neglected
   for (const auto& [derivative, part] : parts)
     if (std::abs(derivative) * part->influence.norm() > none * of.influence.norm())
       of.parts.push_back(*part);
@@ -61,7 +62,7 @@ Linear sum(const Linear& a, const Linear& b)
   return combined(a.value + b.value, {{1, &a}, {1, &b}});
 }
 
-/// The point's regressors: X and -G.
+/// Regressors of the point: X and -G.
 Eigen::Vector2d regressors(const ClosurePoint& point)
 {
   return {point.driving, -point.gradient};
@@ -87,8 +88,8 @@ class Regressions {
     return -squares_(0, 1) / std::sqrt(squares_(0, 0) * squares_(1, 1));
   }
   bool is_singular() const { return !(1 - std::abs(correlation()) > 1e-10); }
-  /// Error of a coefficient over what it were with the other known, for noise of one size; the
-  /// larger of the two. 1/sqrt(1 - r^2) in least squares.
+  /// Error of a coefficient over its error with the other coefficient known, for noise of one
+  /// size; the larger of the two ratios. In least squares it is 1/sqrt(1 - r^2).
   double error_factor() const
   {
     const Eigen::Matrix2d variance = inverse_ * of_instruments_ * inverse_.transpose();
@@ -99,7 +100,7 @@ class Regressions {
     return most;
   }
 
-  /// Coefficients of X and of -G in what `of` takes of the points.
+  /// Coefficients of X and of -G in the regression of of(point).
   template <class Of>
   std::array<Linear, 2> on_both(const Of& of) const
   {
@@ -120,8 +121,8 @@ class Regressions {
     return both;
   }
 
-  /// sum of weight x value/sum of weight, over the points that have both. What composition explains
-  /// of it is not noise (least_squares.hpp).
+  /// sum of weight x value/sum of weight, over points with a finite value and a positive weight.
+  /// The part that composition explains is not counted as noise (least_squares.hpp).
   template <class Value, class Weight>
   Linear mean(const Value& value, const Weight& weight) const
   {
@@ -162,7 +163,7 @@ class Regressions {
                   of_instruments_ = Eigen::Matrix2d::Zero(), inverse_;
 };
 
-/// The numbers as they are printed, with their intervals.
+/// Collects the numbers in the order of printing, with their intervals.
 class Report {
  public:
   Report(const ClosureData& data, const ClosureResampling& resampling)
@@ -224,14 +225,14 @@ void add_collinearity(Report& report, const Regressions& regressions,
   report.add("estimate_correlation", report.correlation(flux[0], flux[1]));
   if (std::abs(r) > collinear)
     report.summary.remarks.push_back(fmt::format(
-        "driving and gradient are collinear over these rows (correlation {:.3f}): the errors of B/c "
-        "and d/c are {:.1f} times what either would have with the other known; add windows or runs "
-        "of other stages of segregation",
+        "driving and gradient are collinear over these rows (correlation {:.3f}): the errors of "
+        "B/c and d/c are {:.1f} times as large as if the other of the two were known; add windows or "
+        "runs of other stages of segregation",
         r, factor));
 }
 
-/// Adds the parts of tau_X and tau_G, by which kinetic terms and inertia change B and d, and
-/// returns their sums.
+/// Adds tau_X and tau_G, by which kinetic terms and inertia change B and d (closure.hpp), and their
+/// parts. Returns tau_X and tau_G.
 std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
 {
   const auto add = [&](const char* name, double (*of)(const ClosurePoint&)) {
@@ -248,14 +249,14 @@ std::array<Linear, 2> add_taus(Report& report, const Regressions& regressions)
   return whole;
 }
 
-/// B of the rule number `rule`, by sums.
+/// B under the rule with index `rule`, as a ratio of sums.
 Linear b_of(const Regressions& regressions, std::size_t rule)
 {
   return regressions.mean([rule](const ClosurePoint& p) { return p.excess[rule] / p.product; },
                           [](const ClosurePoint& p) { return p.frames * p.product; });
 }
 
-/// "+", "-" or "not known".
+/// Sign of the whole interval: "+", "-", or "not known" if the interval contains 0.
 const char* sign_of(const Estimate& estimate)
 {
   if (estimate.low > 0) return "+";
@@ -263,7 +264,7 @@ const char* sign_of(const Estimate& estimate)
   return "not known";
 }
 
-/// The share at which B(p) plus `more` is 0.
+/// The share p at which B(p) + `more` = 0; `none` and `all` are B at p = 0 and p = 1.
 Linear zero_of(const Linear& none, const Linear& all, const Linear* more)
 {
   const double reach = none.value - all.value;
@@ -282,7 +283,7 @@ void add_rules(Report& report, const Regressions& regressions,
   const auto b_over_c = report.estimate(flux[0]);
   if (b_over_c.low <= 0 && b_over_c.high >= 0)
     report.summary.remarks.emplace_back(
-        "the interval of B/c contains 0: c(p) = B(p)/(B/c) may be anything");
+        "the interval of B/c contains 0: c(p) = B(p)/(B/c) is not determined");
   report.add("p_zero", zero_of(none, all, nullptr));
   if (tau) report.add("p_zero_kept", zero_of(none, all, &(*tau)[0]));
   report.add("dc_dp[1/s]",
@@ -304,8 +305,8 @@ void add_rules(Report& report, const Regressions& regressions,
                         {{flux[1].value, &kept}, {kept.value, &flux[1]}, {-1, &(*tau)[1]}}));
   }
   report.summary.remarks.push_back(fmt::format(
-      "sign of c by rule: {}; it changes at p* = {:.3f}; where c < 0 the closure's drag "
-      "pushes grains the way they move",
+      "sign of c by rule: {}; it changes at p* = {:.3f}; if c < 0, the drag of the closure "
+      "pushes grains in their direction of motion",
       signs, zero_of(none, all, nullptr).value));
 }
 
@@ -321,7 +322,7 @@ NamedNumbers closure_summary(const ClosureData& data, const std::vector<Partitio
     report.add("d_over_c[m^2/s]", no_number);
     report.add("regressor_correlation", regressions.correlation());
     report.summary.remarks.emplace_back(
-        "driving and gradient are the same up to a factor in all rows, so that B/c and d/c cannot be "
+        "driving and gradient are proportional over all rows, so that B/c and d/c cannot be "
         "told apart; add windows or runs of other stages of segregation");
     return report.summary;
   }

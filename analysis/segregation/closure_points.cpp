@@ -34,12 +34,12 @@ std::string inputs_of(const Table& table)
 void take(const Table*& place, const Table& table, const char* tool)
 {
   if (place != nullptr)
-    throw UsageError(fmt::format("{} and {} are both tables of {} of the same run ({}); give one",
+    throw UsageError(fmt::format("{} and {} are both tables of {} of the same run ({}); omit one",
                                  place->name, table.name, tool, inputs_of(table)));
   place = &table;
 }
 
-/// In the order of their tables of grseg-segregation.
+/// Pairs of tables by run, in the order of the tables of grseg-segregation.
 std::vector<RunTables> runs_of(const std::vector<Table>& tables)
 {
   std::map<std::string, RunTables> by_input;
@@ -71,8 +71,8 @@ std::vector<RunTables> runs_of(const std::vector<Table>& tables)
   return runs;
 }
 
-/// Names a layer in a window. Kept tables have fewer digits, so that places are told apart to a
-/// power of ten of the order of 1/10000 of the window and the layer, 1e-6 s and m at most.
+/// Key of a layer in a window: times and heights, rounded, since archived tables have fewer digits.
+/// Rounding is to a power of ten near 1/10000 of the window and of the layer, at most 1e-6 s or m.
 using Place = std::tuple<long long, long long, long long, long long>;
 Place place_of(const LayerKey& key)
 {
@@ -85,14 +85,14 @@ Place place_of(const LayerKey& key)
           rounded(key.top, thickness)};
 }
 
-/// A layer in a row of grseg-segregation; NaN where the table lacks a column.
+/// Numbers of a layer from a row of grseg-segregation; NaN if the table lacks the column.
 struct LayerMotion {
   LayerKey key;
-  double small = 0, large = 0;  // m^2 or m^3
+  double small = 0, large = 0;  // area or volume of the grains, m^2 or m^3
   double phi = no_number, flux = no_number, gradient = no_number, diffusivity = no_number;
-  double mass_small = no_number, mass_large = no_number;  // kg
-  double flux_small = no_number, flux_large = no_number;  // J
-  double gain_small = no_number, gain_large = no_number;  // N
+  double mass_small = no_number, mass_large = no_number;  // mass, kg
+  double flux_small = no_number, flux_large = no_number;  // sum m v_y^2, J
+  double gain_small = no_number, gain_large = no_number;  // gain of momentum along y, N
 
   double solid() const { return (small + large) / key.volume; }
   double density() const { return (mass_small + mass_large) / key.volume; }
@@ -113,7 +113,8 @@ constexpr MotionColumn kinetic_columns[] = {
     {"mvv_S_yy[J]", &LayerMotion::flux_small}, {"mvv_L_yy[J]", &LayerMotion::flux_large},
     {"gain_S_y[N]", &LayerMotion::gain_small}, {"gain_L_y[N]", &LayerMotion::gain_large}};
 
-/// The layers of a table, in order, without the rows of the whole bed.
+/// Layers of a table in the order of its rows, without the rows of the whole bed. Sets
+/// `has_kinetic` to false if the table lacks a column of kinetic_columns.
 std::vector<LayerMotion> motions_of(const Table& table, bool& has_kinetic)
 {
   const char* remedy = "a table of grseg-segregation has it";
@@ -142,7 +143,7 @@ std::vector<LayerMotion> motions_of(const Table& table, bool& has_kinetic)
   return motions;
 }
 
-/// d/dy between the neighbours of a layer, of what `of` takes of them.
+/// Derivative of of(row) along y, from the neighbours of a layer; NaN if one is null.
 template <class Row, class Of>
 double slope(const Row* below, const Row* above, const Of& of)
 {
@@ -151,7 +152,7 @@ double slope(const Row* below, const Row* above, const Of& of)
   return (of(*above) - of(*below)) / (height(*above) - height(*below));
 }
 
-/// The row whose layer ends where another begins, in the same window; null where there is none.
+/// Row of the layer below (step -1) or above (step 1) in the same window; null if there is none.
 template <class Row>
 const Row* neighbour(const std::map<Place, Row>& rows, const LayerKey& key, int step)
 {
@@ -163,7 +164,7 @@ const Row* neighbour(const std::map<Place, Row>& rows, const LayerKey& key, int 
   return found == rows.end() ? nullptr : &found->second;
 }
 
-/// The forces per mass of a layer, from its neighbours; returns -sigma'/rho, m/s^2.
+/// Sets the forces per mass of a layer, m/s^2, from its neighbours. Returns -sigma'/rho, m/s^2.
 double add_forces(ClosurePoint& point, const LayerMotion& here, const LayerMotion* below,
                   const LayerMotion* above, double gravity)
 {
@@ -183,7 +184,7 @@ double add_forces(ClosurePoint& point, const LayerMotion& here, const LayerMotio
   return fall;
 }
 
-/// Adds driving and gradient of the window just before this one, if there is no gap between them.
+/// Sets driving and gradient of the window before, if it ends at the begin of this one.
 void add_window_before(ClosurePoint& point, const LayerMotion& here,
                        const std::map<Place, LayerMotion>& motions, double gravity)
 {
@@ -199,11 +200,11 @@ void add_window_before(ClosurePoint& point, const LayerMotion& here,
   point.gradient_before = found->second.gradient;
 }
 
-/// The layer's contact stress in a row of grseg-stress.
+/// Contact stress of a layer from a row of grseg-stress.
 struct Stress {
   LayerKey key;
   ContactSums<3> sums;
-  double total = 0;  // yy, N/m or Pa
+  double total = 0;  // yy component, N/m or Pa
 };
 
 std::map<Place, Stress> stresses_of(const Table& table, const std::vector<PartitionRule>& rules)
@@ -234,7 +235,8 @@ void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<Par
   }
 }
 
-/// Gravity along y, m/s^2, of two tables that must go together.
+/// Gravity along y, m/s^2, of the run. Throws UsageError if layers or windows of the two tables
+/// differ, and FormatError if gravity is not negative.
 double gravity_of(const RunTables& tables)
 {
   const auto &segregation = *tables.segregation, &stress = *tables.stress;
@@ -247,7 +249,7 @@ double gravity_of(const RunTables& tables)
   const double gravity = segregation.header_number("gravity_y");
   if (!(gravity < 0))
     throw FormatError(fmt::format(
-        "{}: '# gravity_y: {}' should be negative; the driving force is the weight above",
+        "{}: '# gravity_y: {}' must be negative, because the driving force comes from the weight",
         segregation.name, segregation.header_text("gravity_y")));
   return gravity;
 }
@@ -290,7 +292,7 @@ bool is_usable(const ClosurePoint& point, const LayerMotion& motion, Instruments
          std::isfinite(point.excess.back());
 }
 
-/// Adds the points of a run, and the window of each.
+/// Adds the points of a run to `data`, and the window of each point to `windows`.
 void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
               const ClosureFilter& filter, std::vector<TableWindow>& windows, ClosureData& data)
 {
@@ -315,7 +317,7 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
     const auto stress = rows.stresses.find(place_of(key));
     if (stress == rows.stresses.end())
       throw UsageError(fmt::format(
-          "{}: has no row for the layer from {:g} to {:g} m from {:g} to {:g} s, which "
+          "{}: there is no row for the layer from {:g} to {:g} m from {:g} to {:g} s, which "
           "{} has; make both tables of the run with the same --begin and --end",
           tables.stress->name, key.bottom, key.top, key.begin, key.end, segregation.name));
     auto point = point_of(motion, stress->second, rows, rules);
@@ -325,8 +327,8 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
   }
 }
 
-/// Numbers the windows of all points, run after run; windows of all tables of one run stand in
-/// line.
+/// Numbers the windows of all points, run after run. Windows of all tables of one run are numbered
+/// in order of time.
 void number_windows(const std::vector<TableWindow>& window_of_point,
                     const std::map<const Table*, std::size_t>& run_of, ClosureData& data)
 {
@@ -367,8 +369,8 @@ ClosureData read_closure(const std::vector<Table>& tables, const std::vector<Par
   number_windows(windows, run_of, data);
   if (data.points.empty())
     throw RunError(
-        fmt::format("none of {} rows is left; the closure needs layers that hold both species and "
-                    "have neighbours; choose other --begin, --end, --heights or --min-solid",
+        fmt::format("none of {} rows is left; the closure needs layers that contain both species "
+                    "and have neighbours; choose other --begin, --end, --heights or --min-solid",
                     data.rows));
   return data;
 }

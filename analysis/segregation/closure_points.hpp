@@ -14,74 +14,73 @@
 
 namespace grseg {
 
-/// One layer in one window, as the closure of Gray & Thornton (2005) sees it. With f^L =
-/// sigma^L/sigma = phi_L (1 + B phi_S) and the interaction
+/// Terms of the closure of Gray & Thornton (2005) in one layer and one window. With f^L =
+/// sigma^L/sigma = phi_L (1 + B phi_S) and the interaction force per volume
 ///
 ///   beta^L = sigma df^L/dy - rho^L c (w_L - w) - rho d dphi_L/dy,     rho^L = phi_L rho
 ///
-/// the momentum balance of the large grains along y less phi_L times the mixture's balance, over
-/// rho, is solved for the flux q_L = phi_L (w_L - w):
+/// take the momentum balance of the large grains along y, minus phi_L times the balance of the
+/// mixture, divided by rho. Solved for the flux q_L = phi_L (w_L - w) it is
 ///
 ///   c q_L = B X - d G + k_push + k_spread - a
 ///
-///   X         phi_L phi_S (-sigma')/rho, driving, m/s^2, > 0 where stress falls upward
+///   X         phi_L phi_S (-sigma')/rho, driving, m/s^2, > 0 if stress decreases upward
 ///   G         dphi_L/dy, gradient, 1/m
 ///   k_push    -(psi_K - phi_L) K'/rho, kinetic push, m/s^2, upward positive
-///   k_spread  -(K_L' - psi_K K')/rho, kinetic spread, m/s^2: large grains carry their momentum from
-///             where they are many to where they are few, as diffusion does
+///   k_spread  -(K_L' - psi_K K')/rho, kinetic spread, m/s^2: large grains transport momentum from
+///             regions with many of them to regions with few, like diffusion
 ///   a         (rate^L - phi_L rate)/rho, inertia, m/s^2
 ///
-/// K and K_L: sum m v_y^2 over V of all and of large grains, in the frame of the base, psi_K =
-/// K_L/K; rate: change of momentum density over the window; ' = d/dy, from the two neighbouring
-/// layers. The balance of the mixture gives -sigma'/rho = -g_y + (K' + rate)/rho, with less noise
-/// than a difference of stresses. All terms hold inside the bed, where the base does not act. One
-/// density.
+/// K and K_L are sum m v_y^2 over V of all and of large grains, in the frame of the base, and psi_K
+/// = K_L/K. rate is the change of momentum density over the window. ' is d/dy, from the two
+/// neighbouring layers. The balance of the mixture gives -sigma'/rho = -g_y + (K' + rate)/rho, with
+/// less noise than a difference of stresses. All terms are valid inside the bed, where no grain
+/// touches the base, and for grains of one density.
 struct ClosurePoint {
-  std::size_t window = 0;            // in the series of all windows, run after run
-  double frames = 0;                 // of the window
+  std::size_t window = 0;            // index of the window in the series of all, run after run
+  double frames = 0;                 // number of frames in the window
   double weight = 0;                 // frames x area or volume of the grains
   double flux = 0;                   // q_L, m/s
-  double driving = 0, gradient = 0;  // X and G
-  // X and G of the same layer in the window before, NaN where there is none.
+  double driving = 0, gradient = 0;  // X, m/s^2, and G, 1/m
+  // X and G of the same layer in the window before; NaN if there is no such window.
   double driving_before = no_number, gradient_before = no_number;
   double kinetic_push = no_number, kinetic_spread = no_number,
          inertia = no_number;       // m/s^2; NaN: not in the table
   double diffusivity = no_number;   // m^2/s, from displacements
-  double weight_above = no_number;  // -sigma' of the table of stress over -sigma' of the balance
-  // From the table of stress: phi_L, phi_L phi_S, and psi_L - phi_L by rule, followed by two more
-  // rules: shares 0 and 1 of mixed contacts.
+  double weight_above = no_number;  // -sigma' by the table of stress over -sigma' by the balance
+  // From the table of stress.
   double phi_large = 0;
-  double product = 0;
-  std::vector<double> excess;
+  double product = 0;          // phi_L phi_S
+  std::vector<double> excess;  // psi_L - phi_L by rule, then for shares 0 and 1 of mixed contacts
 };
 
 /// Instrumental variables of the regression (closure.hpp).
 enum class Instruments {
-  previous,  ///< driving and gradient of the window before, on which this window's noise does not act
+  previous,  ///< X and G of the window before, which the noise of this window does not change
   same,      ///< X and G of this window: least squares
 };
 inline constexpr Choice<Instruments> instrument_choices[] = {
-    {"previous", Instruments::previous, "X and G of the window before"},
-    {"same", Instruments::same, "X and G of this window: least squares"}};
+    {"previous", Instruments::previous, "driving X and gradient G of the window before"},
+    {"same", Instruments::same, "X and G of this window, which is least squares"}};
 
-/// Which layers and windows take part.
+/// Selection of layers and windows, and the choice of instruments.
 struct ClosureFilter : RowFilter {
   Instruments instruments = Instruments::previous;
 };
 
 struct ClosureData {
-  RunLengths runs;    // observations of each run: windows with points, in line
-  std::string doubt;  // on which tables are of one run, mostly none
+  RunLengths runs;    // number of windows with points in each run
+  std::string doubt;  // warning that tables may be of one run; usually empty
   std::vector<ClosurePoint> points;
-  std::size_t rows = 0;  // layers and windows of these tables
+  std::size_t rows = 0;  // number of rows in the tables: layers x windows
   Instruments instruments = Instruments::previous;
-  bool has_kinetic = true;  // all tables have what the kinetic terms and inertia need
+  bool has_kinetic = true;  // true if all tables have the columns for kinetic terms and inertia
 };
 
 /// Joins tables of grseg-segregation and grseg-stress, in any order, on the digest of their run and
-/// (t0, t1, y0, y1). FormatError where a column is missing or a number cannot be; UsageError,
-/// naming table and remedy, where a run lacks one of the two, has one twice, or where layers or
-/// windows of the two differ; RunError where no point is left.
+/// (t0, t1, y0, y1). Throws FormatError if a column is missing or a number is impossible. Throws
+/// UsageError, which names table and remedy, if a run lacks one of the two tables or has one twice,
+/// or if layers or windows of the two differ. Throws RunError if no point is left.
 ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                          const ClosureFilter& filter);
 

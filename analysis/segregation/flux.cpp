@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// A quantity that is printed with its error: name, unit and where it is.
+/// A quantity that is printed with its error: name, unit and member.
 struct Quantity {
   const char *name, *unit;
   double LayerSegregation::*place;
@@ -37,7 +37,7 @@ constexpr std::array quantities{Quantity{"phi_L", "", &LayerSegregation::phi_lar
                                 Quantity{"S", "[m/s]", &LayerSegregation::S},
                                 Quantity{"Pe", "", &LayerSegregation::peclet}};
 
-/// Jackknife standard errors, from the values without each of the parts in turn.
+/// Jackknife standard errors; left_out[k] are the values without part k.
 LayerSegregation jackknife(const std::vector<LayerSegregation>& left_out)
 {
   LayerSegregation error{};
@@ -67,7 +67,7 @@ template <int D>
 void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
-  // An imported instant may lie on the edge of a part, and a difference of times just before it.
+  // The time of an imported frame may lie on the edge of a part; rounding must not move it before.
   constexpr double round_off = 1e-9;
   const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts) + round_off;
   const auto part = static_cast<std::size_t>(std::clamp(passed, 0.0, parts - 1.0));
@@ -147,7 +147,8 @@ void SegregationFlux<D>::add_displacements(const Grains& grains, std::size_t par
 template <int D>
 double SegregationFlux<D>::gradient(const Profile& profile, std::size_t layer) const
 {
-  // A neighbour with less than half of the grains, such as the spray above the bed, is left out.
+  // A neighbour with less than half of this layer's content, like the spray above the bed, is not
+  // used.
   const auto content = [&](std::size_t n) { return profile[n].content[0] + profile[n].content[1]; };
   const auto usable = [&](std::size_t n) {
     return n < profile.size() && content(n) > 0 && content(n) >= content(layer) / 2;
@@ -290,7 +291,7 @@ template double mixing_index(const Layers&, const Grains&, const Frame<3>&);
 
 namespace {
 
-/// From 10 to 90 % of the height of the bed.
+/// Slope of the least-squares line u(y) from 10 to 90 % of the height of the bed, 1/s.
 template <int D>
 double shear_rate(const Grains& grains, const Frame<D>& frame, double bed)
 {

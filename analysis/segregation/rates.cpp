@@ -46,7 +46,7 @@ void add_approach(const std::vector<Moment>& moments, bool against_time, NamedNu
                     against_time ? "time" : "strain", fit.trouble));
 }
 
-/// Means over one window.
+/// Means over the frames of one window; `error` is the standard error of `mixing`.
 struct WindowMean {
   double time, strain, mixing, error;
 };
@@ -63,7 +63,7 @@ std::vector<WindowMean> window_means(const std::vector<Moment>& moments,
     const Eigen::VectorXd excess = mixing.array() - mixing.mean();
     const auto frames = static_cast<double>(mixing.size());
     const double error = standard_error(excess / frames, 1).error;
-    // NaN where all frames depend on each other; then they count as one value.
+    // The error is NaN if all frames depend on each other; then they count as one value.
     means.push_back({numbers_of(own, &Moment::time).mean(), numbers_of(own, &Moment::strain).mean(),
                      mixing.mean(),
                      std::isnan(error) ? std::sqrt(excess.squaredNorm() / frames) : error});
@@ -95,11 +95,11 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
     time = from(most->time, &WindowMean::time, moments.front().time);
     strain = from(most->strain, &WindowMean::strain, moments.front().strain);
   } else {
-    summary.remarks.push_back(
-        fmt::format("t_mixing: mixing is largest in the {} window, so its time is not known",
-                    means.size() == 1       ? "only"
-                    : most == means.begin() ? "first"
-                                            : "last"));
+    summary.remarks.push_back(fmt::format(
+        "t_mixing: the mixing index is largest in the {} window, so its time is unknown",
+        means.size() == 1       ? "only"
+        : most == means.begin() ? "first"
+                                : "last"));
   }
   add_all(summary.numbers, {{"mixing_start", about(means.front())},
                             {"mixing_most", about(*most)},
@@ -122,7 +122,7 @@ NamedNumbers segregation_times(const std::vector<Moment>& moments,
 
 namespace {
 
-/// A term weight (y - x . coefficients)^2 of the sum that is minimised.
+/// A term weight (y - x . coefficients)^2 of the sum that a regression minimises.
 struct Equation {
   double weight;
   Eigen::VectorXd x;
@@ -139,7 +139,7 @@ class Regression {
     std::vector<std::pair<std::size_t, Equation>> equations;
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns, unknowns);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
-    std::map<std::size_t, Eigen::Index> rows;  // of `influence`, by window that takes part
+    std::map<std::size_t, Eigen::Index> rows;  // row of `influence` for each window in use
     for (const auto& point : points) {
       const Equation e = make(point);
       if (!(e.weight > 0) || !e.x.allFinite() || !std::isfinite(e.y)) continue;
@@ -162,16 +162,17 @@ class Regression {
   }
 
   Eigen::VectorXd value;
-  Eigen::MatrixXd influence;  // row: window
+  Eigen::MatrixXd influence;  // a row per window, a column per coefficient
 };
 
-/// phi_L phi_S.
+/// The product phi_L phi_S.
 double both(const RatePoint& point)
 {
   const double phi = point.layer.value.phi_large;
   return phi * (1 - phi);
 }
 
+/// Mean of a quantity over the points, weighted by the number of displacements of a species.
 Regression mean(const std::vector<RatePoint>& points, std::size_t species,
                 double LayerSegregation::*place)
 {
@@ -181,13 +182,13 @@ Regression mean(const std::vector<RatePoint>& points, std::size_t species,
           }};
 }
 
-/// q_L + D d phi_L/dy: the part of the flux that segregation makes, S phi_L phi_S.
+/// Part of the flux due to segregation, S phi_L phi_S = q_L + D d phi_L/dy, m/s.
 double advected(const LayerSegregation& layer)
 {
   return layer.q_large + layer.D * layer.gradient;
 }
 
-/// The quotient a/b times `factor`, with its interval.
+/// The quotient a/b of the first coefficients, times `factor`, with its interval.
 Estimate quotient(const Regression& a, const Regression& b, double factor)
 {
   const double value = factor * a.value[0] / b.value[0];
@@ -221,7 +222,7 @@ NamedNumbers segregation_rates(const std::vector<RatePoint>& points)
     const double unit = std::abs(p.layer.flow.du_dy) * p.diameter;
     return {p.layer.mass, Eigen::VectorXd{{both(p)}}, advected(p.layer.value) / unit};
   });
-  // A point whose gradient is not known takes part in neither S nor D.
+  // A point without a known gradient is used for neither S nor D.
   const Regression diffusivity(points, 1, [](const RatePoint& p) -> Equation {
     const double weight = std::isfinite(advected(p.layer.value)) ? p.layer.mass : 0;
     return {weight * both(p) * both(p), Eigen::VectorXd{{1.0}}, p.layer.value.D};

@@ -10,67 +10,67 @@
 
 namespace grseg {
 
-/// Segregation time by several definitions, counted from the first moment, in seconds and in strain
+/// Segregation time by several definitions, counted from the first frame, in seconds and in strain
 /// (numbers named _strain):
 ///   y_L_start, y_L_end, tau  y_L = end - (end - start) exp(-t/tau), least squares over frames
-///   t50, t90      when y_L has covered 50 % and 90 % of the way from start to end of the fit
-///   mixing_start, mixing_most, mixing_end  mixing_index in the first window, in the one that is
-///                 mixed most and in the last, means over the window's frames
-///   t_mixing      middle of the window that is mixed most; the interval reaches from the first to
-///                 the last window whose index does not differ significantly
-/// `windows` lists the number of moments in each window.
+///   t50, t90      time at which y_L has covered 50 % and 90 % of the way from start to end
+///   mixing_start, mixing_most, mixing_end  mean mixing_index over the frames of the first window,
+///                 of the best mixed window and of the last window
+///   t_mixing      middle of the best mixed window; the interval extends from the first to the last
+///                 window whose index does not differ from it significantly
+/// `windows` lists the number of frames in each window.
 NamedNumbers segregation_times(const std::vector<BedState>& moments,
                                const std::vector<std::size_t>& windows);
 
 /// One layer in one window.
 struct RatePoint {
   std::size_t window;
-  double bottom, top;  // of the layer, m
-  double solid;        // area or volume of grains over V
-  double diameter;     // phi_S d_S + phi_L d_L, nominal, m
+  double bottom, top;  // heights of the layer, m
+  double solid;        // solid fraction: area or volume of grains over V of the layer
+  double diameter;     // mean nominal diameter phi_S d_S + phi_L d_L, m
   double bed;          // height of the bed, m
   SegregationResult layer;
 };
 
-/// The points in layers that take part, whatever their windows.
+/// The points in layers that pass `filter`; the times of `filter` are not used.
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RowFilter& filter,
                                 LengthUnits units);
 
 /// Segregation velocity, diffusivities and Peclet number of a whole run, over the layers and
 /// windows given, by the law of Gray & Chugunov (2006), q_L = S phi_L phi_S - D d phi_L/dy:
-///   D_S, D_L        means of the layers' diffusivities weighted by the number of displacements
-///   Dhat_S, Dhat_L  the same of D/(|du/dy| d^2)
-///   S               q_L + D d phi_L/dy = S phi_L phi_S by least squares weighted with mass, D from
-///                   the displacements in each layer
-///   Shat            the same with both sides over |du/dy| d
-///   D               the mean of that D with weights mass (phi_L phi_S)^2
+///   D_S, D_L        mean diffusivities of the layers, weighted by the number of displacements
+///   Dhat_S, Dhat_L  means of D/(|du/dy| d^2) with the same weights
+///   S               from q_L + D d phi_L/dy = S phi_L phi_S by least squares weighted with mass,
+///                   with LayerSegregation::D of each layer
+///   Shat            as S, with both sides divided by |du/dy| d
+///   D               mean of the layers' D with weights mass (phi_L phi_S)^2
 ///   Pe, lambda      S H/D and D/S
-///   S_flux, D_flux  both from the law by least squares, without the displacements. The noise of the
-///                   flux makes the gradient of its own window larger, which biases them: of equal
-///                   grains S_flux is not 0 (docs/studies/segregation.md); closure.hpp is free of it
-/// Intervals come from how windows differ from their neighbours in time (error_about_trend), so
-/// that what changes as the bed segregates is part of the mean and not of its error.
+///   S_flux, D_flux  both from the law by least squares, without the displacements. Noise of the
+///                   flux increases the gradient of its own window, which biases both: for equal
+///                   grains S_flux is not 0 (docs/studies/segregation.md). closure.hpp has no bias
+/// Intervals come from differences between successive windows (error_about_trend), so that slow
+/// changes as the bed segregates are part of the mean and not of its error.
 NamedNumbers segregation_rates(const std::vector<RatePoint>& points);
 
-/// The windows of a run one after the other, and what follows from all of them. Keeps a few numbers
-/// per frame and per layer and window.
+/// Rows of grseg-segregation, window by window, and the numbers of the whole run. Stores a few
+/// numbers per frame and per layer and window.
 template <int D>
 class SegregationTable {
  public:
   /// Nominal diameters, m.
   SegregationTable(const Layers& layers, double small_diameter, double large_diameter);
 
-  /// The next window.
+  /// Adds the next window.
   void add(const Grains& grains, const SegregationSeries<D>& series,
            const SegregationFlux<D>& flux);
 
-  /// The columns of grseg-segregation from area_S or volume_S on, and the values of the last
-  /// window: of a layer, and of the whole bed, which are means over the frames of the window.
+  /// Columns of grseg-segregation from area_S or volume_S on. row() and bed_row() return the values
+  /// of the last window in these columns, for a layer and for the whole bed (means over frames).
   static std::vector<std::string> columns();
   std::size_t layers() const { return results_.size(); }
   std::vector<double> row(std::size_t layer) const;
   std::vector<double> bed_row() const;
-  double bed() const { return bed_.bed; }  // height, m
+  double bed() const { return bed_.bed; }  // height of the bed in the last window, m
 
   NamedNumbers summary(const RowFilter& filter) const;
 
@@ -78,10 +78,10 @@ class SegregationTable {
   Layers layers_;
   double small_diameter_, large_diameter_;
   SegregationSeries<D> series_;
-  std::vector<std::size_t> windows_;  // number of moments in each
+  std::vector<std::size_t> windows_;  // number of frames in each window
   std::vector<RatePoint> points_;
-  std::vector<SegregationResult> results_;  // of the last window
-  BedState bed_;                            // of the last window
+  std::vector<SegregationResult> results_;  // results of the last window, by layer
+  BedState bed_;                            // mean state of the bed in the last window
 };
 
 }  // namespace grseg

@@ -14,8 +14,8 @@
 namespace grseg {
 namespace {
 
-// With fewer, the correlation time comes out too short now and then, and hides that there are too
-// few independent ones (docs/studies/uncertainty.md).
+// With fewer windows, the estimated correlation time is sometimes too short, and hides that too few
+// windows are independent (docs/studies/uncertainty.md).
 constexpr std::size_t enough_windows = 120;
 
 using Rng = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
@@ -32,7 +32,7 @@ std::size_t draw_below(std::size_t n, Rng& rng)
   return static_cast<std::size_t>(gsl_rng_uniform_int(rng.get(), n));
 }
 
-/// Sum of squared deviations over n - 1 of the finite replicates; NaN where one in twenty is not.
+/// Sample variance of the finite replicates; NaN if more than 5 % of them are not finite.
 double variance(const Eigen::VectorXd& replicates)
 {
   double n = 0, mean = 0, squares = 0;
@@ -47,8 +47,8 @@ double variance(const Eigen::VectorXd& replicates)
                                                                      : no_number;
 }
 
-/// Variance of the mean over blocks of `length` windows of an AR(1) series, relative to what it
-/// would be if what lies on both sides of a cut were correlated, too.
+/// Variance of the mean over independent blocks of `length` windows of an AR(1) series, relative to
+/// the uncut series, in which windows on both sides of a cut are correlated, too.
 double kept_in_blocks(double time, std::size_t length)
 {
   const double rho = neighbour_correlation(time), b = static_cast<double>(length);
@@ -154,7 +154,7 @@ std::string Bootstrap::doubt_of_runs(const Dependence& dependence) const
 {
   if (samples_ == 0 || dependence.effective_runs > 3.5) return {};
   return fmt::format(
-      "{} runs, worth {:.3g} of equal weight, tell {} how runs differ; more runs give a narrower "
+      "{} runs, worth {:.3g} of equal weight, show {} how runs differ; more runs give a narrower "
       "interval",
       runs_.size(), dependence.effective_runs,
       dependence.effective_runs < 1 + least_degrees ? "nothing of" : "little of");
@@ -169,13 +169,13 @@ std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
   if (dependence.independent_windows() >= 7.95) {
     if (windows() < enough_windows)
       return fmt::format(
-          "{} windows are too few to tell how long they depend on each other; with fewer than {} an "
-          "interval of 95 % over windows holds the truth less often if that is longer than it seems",
+          "{} windows are too few to measure how long they are correlated; with fewer than {} an "
+          "interval of 95 % over windows contains the true value less often if that time is longer",
           windows(), enough_windows);
     if (runs_.size() == 1 || per_run >= 4.95) return {};
     return fmt::format(
-        "the windows of each run are worth {:.2g} independent ones; with fewer than 5 an interval of "
-        "95 % over windows holds the truth less often",
+        "the windows of each run are worth {:.2g} independent ones; with fewer than 5 an interval "
+        "of 95 % over windows contains the true value less often",
         per_run);
   }
   return fmt::format(
@@ -185,7 +185,7 @@ std::string Bootstrap::doubt_of_windows(const Dependence& dependence) const
       counted(fmt::format("{:.2g}", dependence.independent_windows()), "independent one"),
       window_degrees(dependence) < least_degrees
           ? "too few for an interval"
-          : "with fewer than 8 an interval of 95 % holds the truth less often");
+          : "with fewer than 8 an interval of 95 % contains the true value less often");
 }
 
 }  // namespace grseg

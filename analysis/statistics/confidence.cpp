@@ -86,7 +86,7 @@ MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers)
 
 namespace {
 
-/// Subtracts from each run its own mean.
+/// The series minus the mean of each run.
 Eigen::VectorXd about_run_means(Eigen::VectorXd series, const RunLengths& runs)
 {
   std::size_t first = 0;
@@ -98,7 +98,7 @@ Eigen::VectorXd about_run_means(Eigen::VectorXd series, const RunLengths& runs)
   return series;
 }
 
-/// sum over pairs `lag` apart, inside each run.
+/// Sum of products of windows that are `lag` apart in one run.
 double product_at_lag(const Eigen::VectorXd& series, const RunLengths& runs, std::size_t lag)
 {
   double sum = 0;
@@ -114,8 +114,8 @@ double product_at_lag(const Eigen::VectorXd& series, const RunLengths& runs, std
 
 using Correlation = std::function<double(std::size_t)>;
 
-/// 1 + 2 sum of the correlation up to the first lag >= 5 times that; subtracting the mean of n
-/// windows has lowered each term, hence the last factor (Wolff 2004).
+/// Autocorrelation time, 1 + 2 sum of the correlation to the first lag >= 5 times the result. The
+/// last factor corrects for the subtracted mean of n windows, which lowers each term (Wolff 2004).
 double time_by_summing(const Correlation& correlation, double n)
 {
   const auto windows = static_cast<std::size_t>(n);
@@ -128,9 +128,8 @@ double time_by_summing(const Correlation& correlation, double n)
   return time * (1 + (2 * static_cast<double>(lag) + 1) / n);
 }
 
-/// Autocorrelation time of the AR(1) series with this correlation of neighbours, freed of its bias
-/// -(1 + 3 rho)/n (Kendall 1954). Where windows are few it scatters less than the sum of
-/// correlations.
+/// Autocorrelation time of the AR(1) series with this correlation of neighbours, corrected for its
+/// bias -(1 + 3 rho)/n (Kendall 1954). For few windows it varies less than the sum of correlations.
 double time_of_ar1(const Correlation& correlation, double n)
 {
   if (n < 4) return 1;
@@ -138,7 +137,7 @@ double time_of_ar1(const Correlation& correlation, double n)
   return (1 + rho) / (1 - rho);
 }
 
-/// (sum b)^2 / sum b^2
+/// Effective number of terms with weights b: (sum b)^2 / sum b^2.
 double effective_number(const Eigen::VectorXd& weight)
 {
   const double sum = weight.sum();

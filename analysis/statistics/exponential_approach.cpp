@@ -12,7 +12,7 @@
 namespace grseg {
 namespace {
 
-/// Start, end and rate, with x running from 0 to 1.
+/// Start, end and rate of the curve for x scaled to the range 0 to 1.
 using Parameters = Eigen::Vector3d;
 
 struct Data {
@@ -29,7 +29,7 @@ Eigen::VectorXd residuals(const Data& data, const Parameters& p)
   return (data.y.array() - p[1] + (p[1] - p[0]) * decay(data.x, p[2]).array()).matrix();
 }
 
-/// Derivatives of the curve.
+/// Derivatives of the curve with respect to the parameters (columns) at each x (rows).
 Eigen::MatrixX3d jacobian(const Data& data, const Parameters& p)
 {
   const Eigen::ArrayXd e = decay(data.x, p[2]).array();
@@ -40,7 +40,7 @@ Eigen::MatrixX3d jacobian(const Data& data, const Parameters& p)
   return j;
 }
 
-/// Start and end are linear: the best of them for a given rate.
+/// Parameters of the best fit at a given rate, which is linear in start and end.
 Parameters best_for(const Data& data, double rate)
 {
   Eigen::MatrixX2d basis(data.x.size(), 2);
@@ -81,7 +81,7 @@ int fill_jacobian(const gsl_vector* p, void* data, gsl_matrix* out)
   return GSL_SUCCESS;
 }
 
-/// False where it does not converge.
+/// Improves the parameters `p`; false if the fit does not converge.
 bool least_squares(Data& data, Parameters& p)
 {
   const auto n = static_cast<std::size_t>(data.x.size());
@@ -101,11 +101,11 @@ bool least_squares(Data& data, Parameters& p)
   const int status =
       gsl_multifit_nlinear_driver(200, 1e-12, 1e-14, 0, nullptr, nullptr, &reason, work.get());
   p = as_parameters(gsl_multifit_nlinear_position(work.get()));
-  // GSL_ENOPROG: no step improves the first guess, as where it is right and data have no noise.
+  // GSL_ENOPROG: no step improves the first guess, e.g. if it is exact and data have no noise.
   return (status == GSL_SUCCESS || reason == GSL_ENOPROG) && p.allFinite();
 }
 
-/// Errors of combinations of the parameters.
+/// Standard errors of linear combinations of the parameters.
 class Errors {
  public:
   Errors(const Data& data, const Parameters& p)
@@ -121,19 +121,19 @@ class Errors {
   const Eigen::MatrixX3d& influences() const { return influences_; }
 
  private:
-  Eigen::MatrixX3d influences_;  // of each observation on each parameter
+  Eigen::MatrixX3d influences_;  // influence of each observation (row) on each parameter (column)
 };
 
-/// Why the curve says nothing, or "".
+/// Reason why the fit has no meaning, or "".
 const char* trouble_with(const Parameters& p, const Errors& errors)
 {
   const auto rise = errors.of({-1, 1, 0}), rate = errors.of({0, 0, 1});
-  if (!(p[2] > rate.reach())) return "cannot be told from a straight line";
+  if (!(p[2] > rate.reach())) return "cannot be distinguished from a straight line";
   if (!(std::abs(p[1] - p[0]) > rise.reach())) return "changes by no more than its scatter";
   return "";
 }
 
-/// The numbers of a fit, back in the units of x.
+/// Sets the estimates of a fit from scaled parameters; `range` of x is the unit of the scaled x.
 void fill(ExponentialApproach& fit, const Parameters& p, const Errors& errors, double range)
 {
   fit.start = errors.of({1, 0, 0}).around(p[0]);
@@ -161,7 +161,7 @@ ExponentialApproach fit_approach(const Eigen::VectorXd& x, const Eigen::VectorXd
     fit.trouble = "does not change";
     return fit;
   }
-  // From 1 on rather than 0: a step is small by its ratio to the parameter.
+  // Scaled so that y begins at 1, not 0: convergence is judged by a step over its parameter.
   const double origin = y[0] - height;
   Data data{(x.array() - x[0]) / range, (y.array() - origin) / height};
   auto p = first_guess(data);

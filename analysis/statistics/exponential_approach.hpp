@@ -8,27 +8,27 @@
 
 namespace grseg {
 
-/// y = end - (end - start) exp(-(x - x_0)/scale), x_0 the first x: the least-squares fit by
+/// Least-squares fit of y = end - (end - start) exp(-(x - x_0)/scale), with x_0 the first x, by
 /// Levenberg and Marquardt (GSL).
 ///
-/// Intervals allow for residuals that depend on each other over time (standard_error). The scale's
-/// interval is the interval of the rate 1/scale turned over, and so is not symmetric.
+/// Intervals take into account that residuals are correlated in time (standard_error). The interval
+/// of `scale` is the interval of the rate 1/scale, inverted, so it is not symmetric.
 struct ExponentialApproach {
   Estimate start, end, scale;
-  /// Why there are no numbers, as the predicate of a sentence; empty where there are. The numbers
-  /// are withheld where the data do not tell the curve from a straight line, or from no change.
+  /// Reason why there is no fit, as the predicate of a sentence; empty if there is one. There is no
+  /// fit if the data do not distinguish the curve from a straight line, or from no change.
   std::string trouble;
 
-  // For what follows from the fit:
-  double scatter = 0;           // rms of the residuals
-  Eigen::MatrixX2d influences;  // of each observation on start and end
+  // Quantities that time_to() needs.
+  double scatter = 0;           // r.m.s. of the residuals, in the unit of y
+  Eigen::MatrixX2d influences;  // influence of each observation (row) on start and end
 };
 
-/// x increasing, e.g. time or strain; both of the same length.
+/// Fits y(x). x must increase, e.g. time or strain; x and y have the same length.
 ExponentialApproach fit_approach(const Eigen::VectorXd& x, const Eigen::VectorXd& y);
 
-/// Where y first has gone `part` of the way from the fit's start to its end: x - x_0, between two
-/// observations on a straight line. NaN where it never does or without a fit.
+/// First x - x_0 at which y has covered the share `part` of the way from the fit's start to its
+/// end, interpolated linearly between observations. NaN if y never does, or without a fit.
 Estimate time_to(double part, const ExponentialApproach& fit, const Eigen::VectorXd& x,
                  const Eigen::VectorXd& y);
 

@@ -30,7 +30,7 @@ Eigen::Index LeastSquares::rank() const
 
 namespace {
 
-/// Fewer points are fitted by their mean.
+/// Least number of points for a fit; fewer points are fitted by their mean.
 constexpr Eigen::Index fewest = 30;
 
 Eigen::MatrixX3d basis_of(const Eigen::VectorXd& phi_large)
@@ -44,7 +44,7 @@ Eigen::MatrixX3d basis_of(const Eigen::VectorXd& phi_large)
 
 LeastSquares fit_of(const Eigen::MatrixX3d& basis, const Eigen::VectorXd& root_of_weight)
 {
-  // One or two compositions determine fewer coefficients.
+  // The threshold allows for one or two compositions, which determine fewer coefficients.
   return LeastSquares(root_of_weight.asDiagonal() * basis, 1e-6);
 }
 
@@ -66,7 +66,7 @@ double degrees_of_composition(const Eigen::VectorXd& phi_large, const Eigen::Vec
   const Eigen::VectorXd root = weight.cwiseSqrt();
   const auto basis = basis_of(phi_large);
   const auto fit = fit_of(basis, root);
-  // Fitted to what is 1 in one group and 0 elsewhere, the fit keeps this part of the group.
+  // `members` are 1 in one group and 0 elsewhere; the fit reproduces a part of each.
   std::map<std::size_t, Eigen::VectorXd> members;
   for (std::size_t k = 0; k < group.size(); ++k) {
     auto& own =

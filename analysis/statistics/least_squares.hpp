@@ -9,11 +9,11 @@
 
 namespace grseg {
 
-/// The x of least |A x - b| for any b. Where the columns of A depend on each other, their rank is
-/// less than their number, and x the shortest of all that will do.
+/// Least-squares solution x of A x = b for any b. If the columns of A are linearly dependent, x is
+/// the shortest solution.
 class LeastSquares {
  public:
-  /// Pivots below `threshold` times the largest one are taken for 0.
+  /// Pivots below `threshold` times the largest pivot count as 0.
   explicit LeastSquares(const Eigen::MatrixXd& a,
                         double threshold = std::numeric_limits<double>::epsilon());
 
@@ -21,23 +21,23 @@ class LeastSquares {
   Eigen::Index rank() const;
 
  private:
-  struct Decomposition;  // compiled once: it costs a compiler ten seconds
+  struct Decomposition;  // defined in the .cpp, because it takes ten seconds to compile
   std::shared_ptr<const Decomposition> decomposition_;
 };
 
-/// Part of a quantity of layers that composition does not explain: `value` less its fit by a + b
-/// ln(phi_S/phi_L) + c phi_L, least squares with `weight`; the mean alone where points are fewer
-/// than ten per coefficient. Weighted, the rest adds up to 0.
+/// Part of a quantity of layers that composition does not explain: `value` minus its least-squares
+/// fit a + b ln(phi_S/phi_L) + c phi_L with weights `weight`; minus its mean if there are fewer
+/// than ten points per coefficient. The weighted sum of the result is 0.
 ///
-/// One B does not describe all compositions, and the compositions of a flow that segregates drift.
-/// Drift is known, not chance: left in the noise, it would make all windows depend on each other
-/// for ever.
+/// One B does not describe all compositions, and the compositions of a segregating flow drift. The
+/// drift is known, not random. If it were left in the noise, all windows would seem correlated.
 Eigen::VectorXd composition_noise(const Eigen::VectorXd& phi_large, const Eigen::VectorXd& value,
                                   const Eigen::VectorXd& weight);
 
-/// How much of the differences between groups of points that fit takes, in degrees of freedom: the
-/// sum of the squared canonical correlations between its terms and the groups. 1, the mean, where
-/// all groups have the same compositions; 3 where each has but one of its own.
+/// Degrees of freedom that the fit of composition_noise() removes from differences between groups
+/// of points: the sum of the squared canonical correlations between the terms of the fit and the
+/// groups. It is 1, for the mean, if all groups have the same compositions, and 3 if each group has
+/// a single composition of its own.
 double degrees_of_composition(const Eigen::VectorXd& phi_large, const Eigen::VectorXd& weight,
                               const std::vector<std::size_t>& group);
 

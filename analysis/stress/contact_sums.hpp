@@ -13,23 +13,23 @@
 
 namespace grseg {
 
-/// Sums over the contacts of one species.
+/// Sums over the contacts of one species (rules: partition_rule.hpp).
 enum class OwnSum {
-  inside,      ///< between its grains
-  base,        ///< with the base, up to the contact point
-  whole_base,  ///< with the base, the whole branch
-  halves,      ///< between its grains, half at either grain (--assign grain)
+  inside,      ///< contacts between its grains
+  base,        ///< contacts with the base; branch from the grain's centre to the contact point
+  whole_base,  ///< contacts with the base; whole branch
+  halves,      ///< contacts between its grains, half in the layer of each grain (--assign grain)
 };
 constexpr std::size_t own_sums = 4;
 
 /// Sums over the contacts between two species; the larger species has the larger nominal diameter.
 enum class PairSum {
-  whole,          ///< the whole branch
-  by_size,        ///< the larger grain's part by size
-  up_to_contact,  ///< the larger grain's part up to the contact point
-  by_power,       ///< the larger grain's part by power:Q
-  at_larger,      ///< the whole branch at the larger grain (--assign grain)
-  at_smaller,     ///< and once more at the smaller one
+  whole,          ///< whole branch
+  by_size,        ///< part of the larger grain under the rule `size`
+  up_to_contact,  ///< part of the larger grain under the rule `contact-point`
+  by_power,       ///< part of the larger grain under the rule power:Q
+  at_larger,      ///< whole branch, in the layer of the larger grain (--assign grain)
+  at_smaller,     ///< whole branch, in the layer of the smaller grain (--assign grain)
 };
 constexpr std::size_t pair_sums = 6;
 
@@ -43,9 +43,9 @@ constexpr std::size_t number_of_pairs(std::size_t species)
   return species * (species - 1) / 2;
 }
 
-/// Sums of force (x) branch over the contacts of one layer in one window, N m, compression
-/// positive, means per frame: what grseg-stress writes and every partition rule is made of. Divided
-/// by V they are stresses (Staron & Phillips 2015, eq. 1).
+/// Sums of force (x) branch over the contacts of one layer in one window, N m, positive in
+/// compression, averaged over frames. grseg-stress writes them, and all partition rules are
+/// computed from them. Divided by V they are stresses (Staron & Phillips 2015, eq. 1).
 template <int D>
 class ContactSums {
  public:
@@ -56,11 +56,10 @@ class ContactSums {
   {
   }
 
-  double volume = 0;            // m^2 or m^3, voids included
-  std::vector<double> content;  // of the mobile grains, by species, m^2 or m^3
-  /// Each grain's part is counted at that grain's centre (--assign grain): parts are then cut by
-  /// size, and halves, at_larger and at_smaller hold what a share is taken of that is the same for
-  /// all contacts.
+  double volume = 0;            // volume V of the layer with its voids, m^2 or m^3
+  std::vector<double> content;  // area or volume of the mobile grains, by species, m^2 or m^3
+  /// True if each grain's part is in the layer of its centre (--assign grain). Parts are then by
+  /// `size`, and rules with one share for all contacts use halves, at_larger and at_smaller.
   bool at_centres = false;
 
   std::size_t species() const { return own_.size(); }
@@ -106,23 +105,22 @@ class ContactSums {
                                              &ContactSums::own_, &ContactSums::pair_);
 };
 
-/// Which tables of grseg-stress have a column.
+/// The tables of grseg-stress that have a column.
 enum class InTables {
   all,
   at_centres,  ///< tables made with --assign grain
   power,       ///< tables made with --partition power:Q
 };
 
-/// A sum whose components stand in columns, one group of columns for each species or pair.
+/// Columns of one sum; each species or pair of species has a group of columns, one per component.
 struct ContactSumColumns {
-  const char *of_two, *of_others;  // the name where there are two species, and of others
-  bool of_pairs;
-  std::size_t sum;  // an OwnSum, or a PairSum where it is of pairs
+  const char *of_two, *of_others;  // name for tables of two species, and for other tables
+  bool of_pairs;                   // true for a sum by pair of species, false by species
+  std::size_t sum;                 // the PairSum or OwnSum, as a number
   InTables in;
 };
 
-/// The one list of all sums, in the order of the table. Whatever writes, reads or merges them goes
-/// through it.
+/// List of all sums in the order of the table. All code that writes, reads or merges sums uses it.
 inline constexpr std::array<ContactSumColumns, own_sums + pair_sums> contact_sum_columns{{
     {"A_{}{}", "A_{}", false, static_cast<std::size_t>(OwnSum::inside), InTables::all},
     {"M", "M_{}+{}", true, static_cast<std::size_t>(PairSum::whole), InTables::all},
@@ -136,7 +134,7 @@ inline constexpr std::array<ContactSumColumns, own_sums + pair_sums> contact_sum
     {"Mpower", "Mpower_{}+{}", true, static_cast<std::size_t>(PairSum::by_power), InTables::power},
 }};
 
-/// Options of a table of grseg-stress that add columns.
+/// Properties of a table of grseg-stress that decide on its columns.
 struct TableKind {
   int dimension = 2;
   bool at_centres = false, power = false;
@@ -154,12 +152,12 @@ struct TensorComponent {
 };
 std::vector<TensorComponent> tensor_components(int dimension);
 
-/// A sum of one species or pair, and the name of its columns without component and unit: "A_SS",
-/// "Msize"; of other than two species "A_AM", "Msize_AM+SE", "A_AM+b".
+/// A sum of one species or pair with the name of its columns, without component and unit: "A_SS",
+/// "Msize"; unless there are two species "A_AM", "Msize_AM+SE", "A_AM+b".
 struct NamedSum {
   std::string name;
   const ContactSumColumns* columns;
-  std::size_t index;  // of the species or pair
+  std::size_t index;  // number of the species or pair
 
   template <class Sums>
   auto& in(Sums& sums) const
@@ -168,18 +166,18 @@ struct NamedSum {
                              : sums.of(static_cast<OwnSum>(columns->sum), index);
   }
 };
-/// All sums that a kind of table has, in order.
+/// All sums of a kind of table, in the order of columns.
 std::vector<NamedSum> named_sums(const SpeciesList& species, InTables in);
 std::vector<NamedSum> named_sums(const SpeciesList& species, const TableKind& kind);
 
-/// "A_SS_xx[N m]".
+/// Name of a column with its unit, "A_SS_xx[N m]".
 std::string column_name(const NamedSum& sum, const TensorComponent& component);
-/// "area_S[m^2]", "volume_AM[m^3]".
+/// Names of the columns of areas or volumes of grains: "area_S[m^2]", "volume_AM[m^3]".
 std::vector<std::string> content_columns(const SpeciesList& species, int dimension);
-/// "n_SS", "n_LS", ... the numbers of contacts of each kind: contact_index.
+/// Names of the columns of numbers of contacts, in the order of contact_index(): "n_SS", "n_LS".
 std::vector<std::string> contact_number_columns(const SpeciesList& species);
 
-/// Number of the kind of a contact: first contacts between species a <= b, in the order SS, LS, LL,
+/// Number of a kind of contact: first contacts between species a <= b, in the order SS, LS, LL,
 /// then contacts of each species with the base.
 constexpr std::size_t contact_index(std::size_t a, std::size_t b)
 {
@@ -190,7 +188,7 @@ constexpr std::size_t base_contact_index(std::size_t species, std::size_t number
   return number_of_species * (number_of_species + 1) / 2 + species;
 }
 
-/// Names with units of all sums that a table has, and the numbers under them.
+/// Names with units of all columns of sums in a table, and the numbers in these columns.
 std::vector<std::string> sum_column_names(const SpeciesList& species, const TableKind& kind);
 template <int D>
 std::vector<double> sum_cells(const ContactSums<D>& sums, const TableKind& kind);

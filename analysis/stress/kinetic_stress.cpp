@@ -49,7 +49,7 @@ typename UnbiasedFluctuations<D>::Product UnbiasedFluctuations<D>::of(std::size_
   const CellSums& cell = cells_[layer];
   const Motion<D> excess = motion - cell.mean;
   const double pairs =
-      (cell.mass - mass) * (cell.mass - mass) - cell.squares + mass * mass;  // sum of m_j m_k
+      (cell.mass - mass) * (cell.mass - mass) - cell.squares + mass * mass;  // sum m_j m_k, j != k
   auto product =
       symmetric_product<D>((cell.mass * cell.mass - cell.squares) / pairs, excess, excess);
   product += symmetric_product<D>(2 / pairs, excess, cell.weighted);
@@ -68,7 +68,7 @@ double moment_of_inertia(double mass, double radius)
   return inertia_factor<D> * mass * radius * radius;
 }
 
-/// Fluctuations of one grain, which moves by `excess` more than the mean.
+/// Fluctuations of one grain with the motion `excess` relative to the mean.
 template <int D>
 Fluctuations<D> fluctuations(double mass, double radius, const Motion<D>& excess)
 {
@@ -88,7 +88,7 @@ Fluctuations<D> operator-(Fluctuations<D> a, const Fluctuations<D>& b)
   return a;
 }
 
-/// The product of fluctuations of a grain with this motion, about the mean of others.
+/// Product of fluctuations of a grain about the mean of others, less the covariance of that mean.
 template <int D>
 std::optional<MotionProduct<D>> about_others(const std::optional<MotionOfOthers<D>>& others,
                                              const Motion<D>& motion)
@@ -149,7 +149,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     sums_[layer].flow.template add<D>(mass, layers_.above_bottom(y, layer),
                                       motion.template head<D>());
     auto& own = sums_[layer].species[species];
-    std::optional<MotionProduct<D>> product;  // where the mean is without the grain
+    std::optional<MotionProduct<D>> product;  // for means that do not include the grain
     if (unbiased && unbiased->has(layer)) product = unbiased->of(layer, mass, motion);
     if (flow_ == MeanFlow::profile_unbiased)
       product = about_others(mean_velocity_.on_profile_of_others(y, mass, motion), motion);
@@ -349,20 +349,19 @@ std::vector<std::string> KineticRemarks::sentences(bool about_layer) const
   std::vector<std::string> all;
   if (about_layer)
     all.push_back(fmt::format(
-        "{:.3g} % of K_xx about the layers' means is shear inside the layers (mass (du/dy h)^2/12: "
-        "{:.3g} %); the columns layer_bias have it",
+        "{:.3g} % of K_xx about the layers' means is due to shear inside the layers (mass (du/dy "
+        "h)^2/12: {:.3g} %); see the columns layer_bias",
         100 * layer_bias_ / (profile_ + layer_bias_), 100 * of_shear_ / (profile_ + layer_bias_)));
   if (left_out_ > 0)
     all.push_back(fmt::format(
-        "{:.0f} of {:.0f} grains (summed over frames) have fewer than two others in their layer or "
-        "cell and do not count; the columns left_out have their number",
+        "{:.0f} of {:.0f} grains (summed over frames) are left out, because fewer than two others "
+        "are in their layer or cell; see the columns left_out",
         left_out_, grains_));
   constexpr double little = 0.01;
   if (own_part_ > little)
     all.push_back(fmt::format(
-        "with {} {} in a window the mean velocity at a grain is made of the grain itself by up to "
-        "{:.2g} %, and its fluctuations are too small by as much; --mean profile-unbiased leaves "
-        "the grain out",
+        "with {} {} in a window, a grain contributes up to {:.2g} % to the mean velocity at its "
+        "place, which reduces its fluctuations by this share; --mean profile-unbiased avoids it",
         own_frames_, own_frames_ == 1 ? "frame" : "frames", 100 * own_part_));
   return all;
 }
@@ -372,8 +371,8 @@ void to_middle_of_step(const Grains& grains, double step, bool turning, Frame<D>
 {
   if (frame.force.size() != grains.size())
     throw FormatError(
-        "the frame has no forces of grains (/particles/grains/force), from which the velocity in "
-        "the middle of a step follows");
+        "the frame has no forces of grains (/particles/grains/force), which the velocity in the "
+        "middle of a step needs");
   const auto torque = torques_of(grains, frame.contacts);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
@@ -393,8 +392,8 @@ std::string velocity_line(const TrajectoryReader& run, const std::string& word, 
   if (run.parameters().text("import_format").empty()) return word;
   if (chosen)
     throw UsageError(fmt::format(
-        "--velocity {}: {} was imported, so that a frame is an instant, not a step, and has one "
-        "velocity; leave --velocity out",
+        "--velocity {}: {} was imported, so each frame has only one velocity of a grain; leave out "
+        "--velocity",
         word, run.path()));
   return "instant";
 }

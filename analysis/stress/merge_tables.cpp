@@ -19,10 +19,10 @@
 namespace grseg {
 namespace {
 
-/// Times in whole steps, since 3 * 0.1 s and 0.3 s are the same window.
+/// Begin and end of a window in whole steps, so that times of 3 * 0.1 s and 0.3 s are equal.
 using Times = std::pair<std::int64_t, std::int64_t>;
 
-/// A row behind its key.
+/// Key and cells of a row.
 struct Row : LayerKey {
   const std::vector<double>* cells;
 };
@@ -31,7 +31,7 @@ struct Row : LayerKey {
 struct Part {
   const Table* table;
   double begin = 0, end = 0, frames = 0;
-  std::map<std::int64_t, Row> layers;  // by number of the layer
+  std::map<std::int64_t, Row> layers;  // rows by number of the layer
 };
 
 /// The windows of one table.
@@ -48,7 +48,7 @@ void require_stress_table(const Table& table)
   const auto name = program.substr(0, program.find(' '));
   if (name != "grseg-stress" && name != "grseg-merge")
     throw FormatError(fmt::format(
-        "{}: was made by {}; only tables of grseg-stress can be merged, all of whose columns are "
+        "{}: was made by {}; only tables of grseg-stress can be merged, because their columns are "
         "means per frame",
         table.name, program));
   refuse_map(table);
@@ -56,11 +56,11 @@ void require_stress_table(const Table& table)
   for (std::size_t c = 0; c < key_columns.size(); ++c)
     if (find_column(table, key_columns[c].name_with_unit(dimension),
                     "a table of grseg-stress has it") != c)
-      throw FormatError(fmt::format("{}: column {} is '{}' where a table of grseg-stress has '{}'",
+      throw FormatError(fmt::format("{}: column {} is '{}', but grseg-stress writes '{}' there",
                                     table.name, c + 1, table.columns[c], key_columns[c].name));
 }
 
-/// `all_windows`: whatever their windows are.
+/// Throws FormatError if the settings of two tables differ, except windows with `all_windows`.
 void require_same_settings(const Table& a, const Table& b, bool all_windows)
 {
   const auto line = [](const auto& setting) {
@@ -85,12 +85,12 @@ void require_same_settings(const Table& a, const Table& b, bool all_windows)
     throw FormatError(fmt::format("{} and {} have different columns", a.name, b.name));
 }
 
-/// FormatError where `ratio`, of a number in a row to one in the header, is beyond whole numbers.
+/// Rounded ratio of a number in a row to one in the header. Throws FormatError if it is too large.
 std::int64_t nearest_whole(double ratio, const Table& table, std::size_t row)
 {
   constexpr double most = 1e15;
   if (std::abs(ratio) > most)
-    throw FormatError(fmt::format("{}: row {}: does not go with the step and layer in the header",
+    throw FormatError(fmt::format("{}: row {}: does not fit the step and layer in the header",
                                   table.name, row + 1));
   return std::llround(ratio);
 }
@@ -108,7 +108,7 @@ Parts parts_of(const Table& table)
                         nearest_whole(key.end / step, table, row)}];
     if (part.layers.empty()) part = {&table, key.begin, key.end, key.frames, {}};
     if (key.frames != part.frames)
-      throw FormatError(fmt::format("{}: row {}: {} frames where others of its window have {}",
+      throw FormatError(fmt::format("{}: row {}: {} frames, but other rows of its window have {}",
                                     table.name, row + 1, format_number(key.frames),
                                     format_number(part.frames)));
     const auto layer = nearest_whole(key.bottom / thickness, table, row);
@@ -118,7 +118,7 @@ Parts parts_of(const Table& table)
   return parts;
 }
 
-/// Windows of several tables are merged where they are the same, and must not overlap otherwise.
+/// Throws UsageError if two different windows overlap. Equal windows of several tables are merged.
 void refuse_overlaps(const std::map<Times, std::vector<const Part*>>& windows)
 {
   if (windows.empty()) return;
@@ -127,13 +127,13 @@ void refuse_overlaps(const std::map<Times, std::vector<const Part*>>& windows)
     const auto &a = *before->second[0], &b = *next->second[0];
     if (next->first.first < before->first.second)
       throw UsageError(fmt::format(
-          "{} and {} hold windows that overlap in part, from {:g} s and from {:g} s; make them with "
+          "{} and {} have windows that partly overlap, from {:g} s and from {:g} s; make them with "
           "the same --begin and --window, or merge with --all-windows",
           a.table->name, b.table->name, a.begin, b.begin));
   }
 }
 
-/// Means over the parts, weighted by frames.
+/// Rows of a window: means over the parts, weighted by frames.
 std::vector<std::vector<double>> merged_rows(const std::vector<const Part*>& parts)
 {
   Part all{nullptr, parts[0]->begin, parts[0]->end, 0, {}};
@@ -168,7 +168,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
     require_stress_table(table);
     require_same_settings(tables[0], table, all_windows);
   }
-  // The order of the sums does not depend on the order of the arguments.
+  // Sorted, so that the order of summation does not depend on the order of the arguments.
   std::ranges::stable_sort(tables, [](const Table& a, const Table& b) {
     return std::pair(header_values(a, "input"), a.to_text()) <
            std::pair(header_values(b, "input"), b.to_text());
@@ -197,7 +197,7 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   merged.columns = tables[0].columns;
   for (const auto& [window, of_window] : windows) add_all(merged.rows, merged_rows(of_window));
   if (all_windows && !merged.rows.empty()) {
-    // In whole steps, since 2.2 - 2 is not 0.2.
+    // Subtracted in whole steps, because 2.2 - 2 is not exactly 0.2.
     const double length =
         static_cast<double>(whole.second - whole.first) * tables[0].header_positive("step");
     for (auto& [key, value] : merged.header)

@@ -9,15 +9,15 @@
 
 namespace grseg {
 
-/// Several tables of grseg-stress, or of several of them, as one: rows of one window (t0, t1) and
-/// layer become their mean weighted by frames, and `frames` their sum. A layer that a run does not
-/// reach counts as empty in all of that run's frames. With `all_windows` all windows become one,
-/// from the earliest t0 to the latest t1.
+/// Merges tables of grseg-stress, or merged tables, into one. Rows of the same window (t0, t1) and
+/// layer become one row: their mean weighted by frames, and the sum of `frames`. A layer that a run
+/// does not reach counts as empty in all frames of that run. With `all_windows` all windows become
+/// one, from the earliest t0 to the latest t1.
 ///
-/// The # lines hold every table's history and input, and last `command`; all others must be the
-/// same in all tables: FormatError naming two that differ. UsageError where two hold the same time
-/// of the same run. The result does not depend on the order of `tables` (but for file names in
-/// `command`).
+/// The header contains the histories and inputs of all tables, and `command` as the last line of
+/// the history. All other header lines must agree in all tables. Throws FormatError, naming two
+/// tables that differ, and UsageError if two tables contain the same time of the same run. The
+/// result does not depend on the order of `tables`, except for file names in `command`.
 Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& info,
                    const std::string& command);
 

@@ -208,8 +208,8 @@ struct AssignmentWord {
 
 constexpr Choice<AssignmentWord> assignments[] = {
     {"contact-point", {Assignment::contact_point, {}}},
-    {"branch", {Assignment::branch, {}}, "by the length in each layer"},
-    {"grain", {Assignment::grain, {}}, "each grain's part at its centre"},
+    {"branch", {Assignment::branch, {}}, "in proportion to its length in each layer"},
+    {"grain", {Assignment::grain, {}}, "each grain's part in the layer of its centre"},
     {kernel_shapes[0].word, {Assignment::kernel, KernelShape::gauss}},
     {kernel_shapes[1].word, {Assignment::kernel, KernelShape::lucy}},
     {kernel_shapes[2].word,
@@ -221,16 +221,16 @@ constexpr Choice<AssignmentWord> assignments[] = {
 
 void ContactAssignmentOptions::add_to(po::options_description& options)
 {
-  const auto where = "layer in which a contact counts: " + list_of(assignments);
+  const auto where = "layer to which a contact's stress is added: " + list_of(assignments);
   options.add_options()("assign", word_option(&assign, words_of(assignments)), where.c_str());
   options.add_options()(
       "kernel-width", po::value(&width)->default_value(width)->value_name("LENGTH"),
       "width of the kernel: standard deviation of gauss, half the support of lucy "
       "and heaviside");
   options.add_options()("composition", word_option(&composition, words_of(grain_areas)),
-                        "a grain's area in the layers: clipped at their edges (default), whole at "
-                        "its centre (centre; always in maps), or spread from there by the kernel "
-                        "(kernel; default with a kernel)");
+                        "layers to which a grain's area is added: clipped: its part in each layer "
+                        "(default); centre: all in the layer of its centre (always in maps); "
+                        "kernel: spread by the kernel (default with a kernel)");
 }
 
 ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values,
@@ -256,12 +256,12 @@ void ContactAssignmentOptions::require_bins(const ContactAssignment& chosen,
   const bool map = frames.map().has_value();
   if ((frames.annuli() || map) && !whole)
     throw UsageError(
-        fmt::format("--assign {} spreads contacts over layers, not over {}; with --bins {} take "
+        fmt::format("--assign {} spreads contacts over layers, not over {}; with --bins {} use "
                     "contact-point or grain",
                     assign, map ? "the cells of a map" : "annuli", frames.bins));
   if (map && chosen.area != GrainArea::centre)
     throw UsageError(fmt::format(
-        "--composition {}: in a map a grain counts to the cell of its centre; take centre",
+        "--composition {}: in a map, a grain belongs to the cell of its centre; use centre",
         composition));
 }
 

@@ -17,45 +17,44 @@
 
 namespace grseg {
 
-/// To which layer a contact, or a grain's part of it, counts.
+/// Layer to which the stress of a contact is added.
 enum class Assignment {
-  contact_point,  ///< all of it where the two grains touch
-  branch,         ///< spread evenly over the branch: every layer gets the length that lies in it
+  contact_point,  ///< the layer of the contact point
+  branch,         ///< all layers along the branch, in proportion to its length in each
   kernel,         ///< spread along the branch by a coarse-graining kernel (coarse_graining.hpp)
-  grain,          ///< each grain's part at the height of its own centre
+  grain,          ///< each grain's part of the stress in the layer of its own centre
 };
 
 /// Contact stress by layer: sigma = (1/V) sum force (x) branch (Rothenburg & Selvadurai 1981;
-/// Staron & Phillips 2015, eq. 1), kept apart by species and pair of species, so that every rule of
-/// partition is algebra on these sums (partial_stress.hpp). N m, compression positive, not divided
-/// by V, means per frame.
+/// Staron & Phillips 2015, eq. 1). Sums are separate by species and pair of species, so that every
+/// partition rule is algebra on them (partial_stress.hpp). They are in N m, positive in
+/// compression, not divided by V, and averaged over frames.
 ///
-/// Only contacts that carry a force count, in n_* too. In annuli components are those along and
-/// across the layer where the grains touch, and `branch` and `kernel` do not apply; nor do they to
+/// Contacts without a force are ignored, also in the numbers n_*. In annuli, components are along
+/// and across the layer at the contact point. `branch` and `kernel` apply neither to annuli nor to
 /// maps.
 ///
-/// `branch` and `kernel` spread what belongs to one grain along its own stretch of the branch: the
-/// larger grain's part of a mixed contact (by_size, up_to_contact) from its centre to r_L/(r_L +
-/// r_S) of the branch or to the contact point, base from the grain's centre to the contact point
-/// (the boundary rule of Weinhart et al. 2012). by_power is a weight times the whole branch's share
-/// of the layer. Under a kernel a row is the integral of the field over the layer: sum/V is the
-/// field's mean there.
+/// `branch` and `kernel` spread the part of one grain along its own stretch of the branch. The
+/// larger grain's part of a mixed contact reaches from its centre to r_L/(r_L + r_S) of the branch
+/// (by_size) or to the contact point (up_to_contact). `base` reaches from the grain's centre to the
+/// contact point (the boundary rule of Weinhart et al. 2012). by_power is spread along the whole
+/// branch. With a kernel, a row is the integral of the field over the layer, and sum/V its mean.
 ///
-/// `grain` counts either grain's part of equal grains (cut at the contact point) and of mixed ones
-/// (cut by size, so that `whole` less `by_size` is the smaller grain's part, at its centre) in the
-/// layer of that grain; up_to_contact and by_power in the layer of the larger grain; halves,
-/// at_larger and at_smaller are for rules whose share is the same for all contacts.
+/// `grain` adds each grain's part to the layer of that grain. Contacts of equal grains are cut at
+/// the contact point, mixed contacts by size, so that `whole` - `by_size` is the part of smaller
+/// grains. up_to_contact and by_power are added to the layer of the larger grain. halves, at_larger
+/// and at_smaller are for rules with one share for all contacts.
 template <int D>
 class PartialContactStress {
  public:
   /// Sums of one layer.
   struct Mean {
-    std::vector<double> contacts;  // by contact_index, in the layer of the contact point
-    ContactSums<D> sums;           // without volume and contents; at the centres only with
-                                   // Assignment::grain
+    std::vector<double> contacts;  // numbers by contact_index(), in the layer of the contact point
+    ContactSums<D> sums;           // without volume and content; at_centres, halves, at_larger and
+                                   // at_smaller only with Assignment::grain
   };
 
-  /// `power` is the Q of by_power, which is not summed without it. `kernel` belongs to
+  /// `power` is the Q of by_power, which is summed only with it. `kernel` is required for
   /// Assignment::kernel.
   PartialContactStress(const Layers& layers, Assignment assignment,
                        std::optional<double> power = std::nullopt,
@@ -66,35 +65,35 @@ class PartialContactStress {
   std::size_t layers() const { return sums_.size() / sums_of_layer(); }
   Mean mean(std::size_t layer) const;
 
-  /// The columns of grseg-stress behind the contents, and a layer's numbers under them.
+  /// The columns of grseg-stress after the contents, and the numbers of a layer in them.
   std::vector<std::string> columns(const SpeciesList& species) const;
   std::vector<double> row(std::size_t layer) const;
 
  private:
-  /// A rule whose share is summed contact by contact, and the number behind its name.
+  /// A rule whose share differs by contact, and the number in its name, such as Q of power:Q.
   struct SummedRule {
     const RuleDefinition* definition;
     double number;
   };
-  /// A stretch of the branch: `weight` of the contact's force (x) branch, beginning at the grain it
-  /// belongs to. Heights, m.
+  /// A stretch of the branch from height `from` to height `to`, m, which begins at the centre of
+  /// its grain. Its stress is `weight` times the contact's force (x) branch.
   struct Stretch {
     double from, to, weight;
-    std::size_t layer;  // of its grain, with Assignment::grain
+    std::size_t layer;  // layer of its grain; only for Assignment::grain
   };
-  /// A grain of a contact.
+  /// One grain of a contact.
   struct End {
-    double y;           // m
-    std::size_t layer;  // with Assignment::grain
+    double y;           // height of its centre, m
+    std::size_t layer;  // layer of its centre; only for Assignment::grain
   };
   /// Properties common to all stretches of a contact.
   struct Contact {
-    Tensor<D> stress;   // N m, force (x) branch
-    std::size_t layer;  // of the contact point
+    Tensor<D> stress;   // force (x) branch, N m
+    std::size_t layer;  // layer of the contact point
   };
 
   static std::vector<SummedRule> summed_rules(std::optional<double> power);
-  // Where the numbers of a layer stand, one behind the other.
+  // Places of the sums of a layer: first by species, then by pair.
   std::size_t sums_of_layer() const
   {
     return species_ * own_sums + number_of_pairs(species_) * pair_sums;
@@ -125,15 +124,15 @@ class PartialContactStress {
   std::optional<Kernel> kernel_;
   std::size_t species_;
   std::size_t frames_ = 0;
-  std::size_t count_ = 0;         // layers of the frame that is being added
-  std::vector<Tensor<D>> sums_;   // by layer and place
-  std::vector<double> contacts_;  // by layer and contact_index
+  std::size_t count_ = 0;         // number of layers of the frame that is being added
+  std::vector<Tensor<D>> sums_;   // by layer, then by place()
+  std::vector<double> contacts_;  // numbers of contacts by layer, then by contact_index()
 };
 
-/// To which layer contacts and grains count, as given on the command line.
+/// How the stress of contacts and the area of grains are divided among layers.
 struct ContactAssignment {
   Assignment assignment;
-  std::optional<KernelShape> shape;  // where the assignment is a kernel
+  std::optional<KernelShape> shape;  // for Assignment::kernel
   GrainArea area;
 };
 
@@ -143,14 +142,13 @@ struct ContactAssignmentOptions {
 
   /// Adds --assign --kernel-width --composition.
   void add_to(po::options_description& options);
-  /// UsageError for an unknown word, or a width without a kernel. Sets `composition` to what
-  /// follows from `assign`, or to `otherwise`, where it was not given.
+  /// If --composition was not given, sets `composition` to "kernel" for a kernel, else to
+  /// `otherwise`. Throws UsageError for an unknown word, or a width without a kernel.
   ContactAssignment contact_assignment(const po::variables_map& values,
                                        const std::string& otherwise = "clipped");
-  /// UsageError where it spreads over layers what annuli or the cells of a map do not share.
+  /// Throws UsageError if the assignment does not apply to annuli or to the cells of a map.
   void require_bins(const ContactAssignment& chosen, const FrameOptions& frames) const;
-  /// The kernel of `contact_assignment`, if it has one; UsageError where --kernel-width is not a
-  /// length.
+  /// The kernel of `chosen`, if it has one. Throws UsageError if --kernel-width is not a length.
   std::optional<Kernel> kernel(const ContactAssignment& chosen, const LengthUnits& units) const;
 };
 

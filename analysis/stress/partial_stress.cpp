@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-/// Parts of the contacts between mobile grains, N m: the species' parts, and the part of nobody.
+/// Stress sums over contacts of mobile grains, N m, by species; `dropped` belongs to none (`drop`).
 template <int D>
 struct Shares {
   std::vector<Tensor<D>> of_species;
@@ -36,7 +36,7 @@ Shares<D> without_mixed(const ContactSums<D>& sums, OwnSum own)
   return shares;
 }
 
-/// Every mixed contact's share `p` goes to its larger grain.
+/// Shares under a rule that assigns the share `p` of every mixed contact to its larger grain.
 template <int D>
 Shares<D> same_for_all(const ContactSums<D>& sums, double p)
 {
@@ -134,7 +134,7 @@ template std::vector<Cell> stress_fields(const ContactSums<3>&, const SpeciesLis
 
 namespace {
 
-/// Where the table's column of a sum was made with another exponent than the rule has.
+/// Throws FormatError if the table's columns Mpower have another exponent than the rule.
 void require_same_power(const Table& table, const PartitionRule& rule, const std::string& remedy)
 {
   if (table.header_number("power") != rule.value)
@@ -152,7 +152,7 @@ InTables tables_with(PairSum sum)
       ->in;
 }
 
-/// True where only rules that are not among `rules` need the sum: older tables may lack it.
+/// True if only rules that are not among `rules` need the sum, which older tables may lack.
 bool is_of_other_rule(const ContactSumColumns& columns, const std::vector<PartitionRule>& rules)
 {
   if (!columns.of_pairs) return false;
@@ -218,7 +218,7 @@ ContactSums<3> ContactSumsReader::read(std::size_t row) const
   ContactSums<3> sums(species_.size());
   sums.at_centres = at_centres_;
   sums.volume = finite_cell(table_, row, volume_);
-  constexpr double round_off = 1e-12;  // of the volume: contents are differences of larger ones
+  constexpr double round_off = 1e-12;  // relative to V; contents are differences of larger numbers
   for (std::size_t k = 0; k < contents_.size(); ++k)
     sums.content[k] = non_negative_cell(table_, row, contents_[k], round_off * sums.volume);
   for (const auto& [sum, columns] : places_)

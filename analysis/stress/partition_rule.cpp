@@ -19,13 +19,13 @@ namespace {
 
 using Kind = PartitionRule::Kind;
 
-/// The rules. To add one: a Kind, a row here and, where its share differs from contact to contact,
-/// a sum with its columns (contact_sums.hpp).
+/// The rules. A new rule needs a Kind, a row here and, if its share differs from contact to
+/// contact, a sum with its columns (contact_sums.hpp).
 constexpr RuleDefinition definitions[] = {
     // Staron & Phillips (2015), prefactors d_L/(d_L + d_S) and d_S/(d_L + d_S) below eq. 1
     {.kind = Kind::size,
      .word = "size",
-     .meaning = "r_L/(r_L + r_S) of the actual radii (nominal radii, 2 to 1: uniform:0.66667)",
+     .meaning = "r_L/(r_L + r_S) of the actual radii (for nominal radii 2:1, uniform:0.66667)",
      .share = [](const MixedContact& contact,
                  double) { return contact.r_large / (contact.r_large + contact.r_small); },
      .sum = PairSum::by_size,

@@ -21,9 +21,9 @@ constexpr ToolInfo info{
     "  grseg-balance run.h5 -o balance.tsv              layers of 4 dS, Gaussian of 1 dS\n"
     "  grseg-balance run.h5 --layer 1dS --kernel-width 0.5dS   finer profiles\n"
     "  grseg-balance run.h5 --kernel lucy --kernel-width 3dS   a kernel of compact support\n"
-    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the sentence of the summary\n"
-    "  grseg-balance run.h5 --partition stock           push, interaction and drag under each rule\n"
-    "                                                   beside N, which no rule changes\n",
+    "  grseg-balance run.h5 --begin 20 -o /dev/null     only the summary, one sentence\n"
+    "  grseg-balance run.h5 --partition stock           also push, interaction and drag by rule,\n"
+    "                                                   and N, which no rule changes\n",
     presets::balance};
 
 struct Settings {
@@ -36,14 +36,15 @@ po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
   options.add_options()("kernel", word_option(&s.kernel, words_of(kernel_shapes)),
-                        "coarse-graining function over height: gauss, lucy or heaviside");
+                        "kernel by which quantities are spread over height (coarse graining): "
+                        "gauss, lucy or heaviside");
   options.add_options()("kernel-width",
                         po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
-                        "width of the kernel: standard deviation of gauss, half the support of the "
-                        "others");
+                        "width of the kernel: standard deviation of gauss, half the support of "
+                        "lucy and heaviside");
   const auto partition =
-      "adds columns of these rules, which cut mixed contacts elsewhere than at the contact point: " +
-      list_of_rules() + ", several by comma; or stock, the rules of published codes";
+      "add columns for these partition rules, which divide the stress of mixed contacts: " +
+      list_of_rules() + ", separated by commas; or stock, the rules of published programs";
   options.add_options()("partition", words_option(s.partition, words_of_rules()),
                         partition.c_str());
   s.frames.add_to(options);
@@ -100,7 +101,7 @@ void tabulate(Settings& s, const po::variables_map& values, const std::string& c
   parse_rules(s.partition);
   FrameLoop loop(info, values, s.frames);
   loop.require_forces("the rate at which momentum changes",
-                      "take a run of grseg-sim, or import one with the forces on its grains");
+                      "use a run of grseg-sim, or import one with the forces on its grains");
   with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, shape, command); });
 }
 

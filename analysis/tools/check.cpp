@@ -32,10 +32,10 @@ ToolInfo info()
       "                                                   formats/README.md\n"
       "  grseg-check run.h5 --physics                     balances, contact laws, layers, drift\n"
       "  grseg-check run.h5 --physics --begin 20 --mean-overlap 1e-3 --json -o check.json\n"
-      "\nChecks of --physics: what is measured, tolerance and law; see docs/studies/check.md:\n" +
+      "\nChecks of --physics: quantity, option of its tolerance, law (docs/studies/check.md):\n" +
       checks::listed();
   return {name,
-          "tells whether a run is whole, as specified (--deep) and obeys mechanics (--physics).",
+          "checks that a run is undamaged, as specified (--deep), and obeys mechanics (--physics).",
           "grseg-check run.h5 [options] > check.tsv", help.c_str()};
 }
 
@@ -51,13 +51,13 @@ po::options_description options_into(Settings& s)
   auto add = options.add_options();
   auto& windows = s.physics.windows;
   add("deep", po::bool_switch(&s.deep),
-      "check every path of the file against its specification, and read every chunk");
+      "compare every path of the file with formats/README.md, and read every chunk");
   add("physics", po::bool_switch(&s.with_physics),
-      "check the physics too; all tolerances are options");
+      "also check the laws of mechanics, with the tolerances below");
   add("layer", po::value(&s.physics.layer)->default_value(s.physics.layer)->value_name("LENGTH"),
-      "thickness of the layers whose load is checked: 4dS, 2dL, 20mm, or metres");
+      "thickness of the layers whose load is checked: 4dS, 2dL, 20mm, 0.02m");
   add("window", window_option(windows),
-      "duration of the windows; the scatter of their means gives the errors");
+      "duration of averaging windows; errors follow from the scatter of window means");
   add("begin", time_option(windows.begin), "leave out frames before this time (default: t = 0)");
   add("end", time_option(windows.end), "leave out frames from this time on (default: none)");
   for (const auto& tolerance : CheckTolerances::options()) {

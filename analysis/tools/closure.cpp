@@ -21,7 +21,7 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-closure",
-    "the closure of Gray & Thornton from fluxes: B/c, d/c, and c under each partition rule.",
+    "coefficients of Gray & Thornton's closure from fluxes: B/c, d/c, and c under each rule.",
     "grseg-closure a.segregation.tsv a.stress.tsv ... [options] > closure.tsv",
     "  grseg-closure *.segregation.tsv *.stress.tsv --heights 4dS:56dS --begin 10\n"
     "  grseg-closure *.segregation.tsv *.stress.tsv --partition size,half --instruments same\n"};
@@ -41,7 +41,7 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   const auto rules =
-      "partition rules under which c is printed: " + list_of_rules() + ", or stock (default)";
+      "partition rules for which c is printed: " + list_of_rules() + ", or stock (default)";
   add("partition", words_option(s.partition, words_of_rules()), rules.c_str());
   const auto instruments =
       "instrumental variables of the regression: " + list_of(instrument_choices);
@@ -58,11 +58,11 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-/// Refuses options that cannot be meant, before any table is read.
+/// Throws UsageError for impossible option values, before any table is read.
 void check(const Settings& s, const po::variables_map& values)
 {
   if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
-    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", s.bootstrap));
+    throw UsageError(fmt::format("--bootstrap {}: it must be 0 or 100 to 100000", s.bootstrap));
   if (s.seed < 0) throw UsageError("--seed must not be negative");
   s.output.check(values);
   s.filter.check();
@@ -86,7 +86,7 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
   const auto tables = read_tables(values);
   if (tables.empty())
     throw UsageError(
-        "no table given; name a table of grseg-segregation and one of grseg-stress of each run");
+        "no table given; name a table of grseg-segregation and one of grseg-stress for each run");
   const auto data = read_closure(tables, rules, s.filter);
   auto header = provenance_of(tables, info, "", command);
   if (!data.doubt.empty()) header.emplace_back("doubt", data.doubt);

@@ -14,10 +14,10 @@ namespace {
 constexpr ToolInfo info{
     "grseg-derive",
     "contacts per grain, mean forces, pressures, B, friction and fabric from sums of grseg-micro.",
-    "grseg-derive micro.tsv ... | - [options] > derived.tsv",
+    "grseg-derive micro.tsv ... [options] > derived.tsv    (-: standard input)",
     "  grseg-derive micro.tsv                           z, f, Pi, B, friction, fabric of each row\n"
     "  grseg-derive micro.tsv --force normal --average ends --pool composition\n"
-    "  grseg-micro run.h5 | grseg-derive -              without a file in between\n",
+    "  grseg-micro run.h5 | grseg-derive -              through a pipe, without a file\n",
     presets::derive};
 
 struct Settings {

@@ -22,22 +22,23 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-fit", "the segregation strength B, with its interval, from tables of sums.",
-    "grseg-fit sums.tsv ... | - [options]",
+    "grseg-fit sums.tsv ... [options]    (-: standard input)",
     "  grseg-fit sums.tsv                               B by size, the default\n"
     "  grseg-fit sums.tsv --partition stock             B by the rules of published codes\n"
-    "  grseg-fit sums.tsv --short -o fit.tsv            a table to read, and all numbers in a file\n"
+    "  grseg-fit sums.tsv --short -o fit.tsv            a short table, and all numbers in a file\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
     "  grseg-fit phi*/*.tsv                             B of each flow, then of all\n"
-    "  grseg-fit phi*/*.tsv --over equal-flows          one number, each flow counting the same\n"
-    "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B over the large grains' share\n"
+    "  grseg-fit phi*/*.tsv --over equal-flows          one B, with equal weight for each flow\n"
+    "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B as function of the large grain's share\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
-    "  grseg-stress run.h5 | grseg-fit - --json         without a file in between\n"
+    "  grseg-stress run.h5 | grseg-fit - --json         through a pipe, without a file\n"
     "\nLarge grains bear the share psi_L = phi_L (1 + B phi_S) of the stress, where phi_L and phi_S are\n"
     "the species' shares of the grains' area or volume. B > 0: large grains bear more than phi_L.\n"
-    "Tables are of grseg-stress or, with --quantity kinetic, of grseg-kinetic.\n",
+    "Input: tables of grseg-stress or, with --quantity kinetic, of grseg-kinetic.\n",
     presets::fit};
 
-/// Lengths may have been given in diameters, which are known to a tolerance.
+/// True if two values of the header line `key` differ. Lengths may have been given in diameters, so
+/// they are compared with the tolerance of diameters.
 bool differ(const std::string& key, const std::string& a, const std::string& b)
 {
   if (same_setting(a, b)) return false;
@@ -47,8 +48,8 @@ bool differ(const std::string& key, const std::string& a, const std::string& b)
          std::abs(*x - *y) > diameter_tolerance * std::max(std::abs(*x), std::abs(*y));
 }
 
-/// Prints on standard error what a reader of the numbers should know; `with_doubts`: unless they
-/// are part of what is printed.
+/// Prints remarks on standard error: settings in which the tables differ and, with `with_doubts`,
+/// the doubts of the report, which the short table contains itself.
 void remark(const std::vector<Table>& tables, const FitReport& report, bool with_doubts)
 {
   for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step", "mean",
@@ -61,7 +62,7 @@ void remark(const std::vector<Table>& tables, const FitReport& report, bool with
   for (const auto& doubt : doubts(report)) std::cerr << fmt::format("{}: {}\n", info.name, doubt);
 }
 
-/// RunError, saying why, where there is no number to print.
+/// Throws RunError with the reason if there is no number to print.
 void require_numbers(const FitReport& report)
 {
   const auto has_number = [&](const RuleFit& fit) {
@@ -73,8 +74,8 @@ void require_numbers(const FitReport& report)
   throw RunError(fmt::format(
       "{}: {}", rule_name(report, first),
       first.rule.adds_up() ? first.doubt
-                           : "there is no B, since the parts do not add up to the whole stress; "
-                             "--fit paper prints what can be fitted"));
+                           : "there is no B, because the species' stresses do not add up to the "
+                             "whole; --fit paper prints what can be fitted"));
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-forces",
-    "histograms of the contacts' normal forces by layer, window and pair of species.",
+    "histograms of the contacts' normal forces f_n by layer, window and pair of species.",
     "grseg-forces run.h5 [options] > forces.tsv",
-    "  grseg-forces run.h5 --window 30 -o forces.tsv    f_n/<f_n>, by layer and of the bed\n"
-    "  grseg-forces run.h5 --unit type                  <f_n> of the contacts' own pair type\n"};
+    "  grseg-forces run.h5 --window 30 -o forces.tsv    f_n over its mean, by layer and bed\n"
+    "  grseg-forces run.h5 --unit type                  over the mean of the same pair type\n"};
 
 struct Settings {
   FrameOptions frames;
@@ -30,10 +30,10 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("unit", word_option(&s.unit, words_of(force_units)),
-      "contacts whose mean is <f_n>: all between grains in the layer (layer), or only contacts of the "
-      "same pair type, such as LS (type)");
+      "unit of f_n, a mean force: of all contacts between grains in the layer (layer), or only of "
+      "contacts of the same pair type, such as LS (type)");
   add("bin", po::value(&s.bin)->default_value(s.bin, "0.1")->value_name("X"),
-      "width of the 100 bins below the open one");
+      "width of the 100 bins, in that unit; a last bin has all larger forces");
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
   return options;

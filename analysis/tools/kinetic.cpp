@@ -14,13 +14,13 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-kinetic",
-    "sums of m dv (x) dv by layer, window and species: kinetic stress, and the mean flow.",
+    "kinetic stress (sums of m dv (x) dv) and mean flow, by layer, window and species.",
     "grseg-kinetic run.h5 [options] > kinetic.tsv",
-    "  grseg-kinetic run.h5 -o kinetic.tsv              about a fine profile of mean velocity\n"
-    "  grseg-kinetic run.h5 --mean profile-unbiased     about the profile of all other grains\n"
-    "  grseg-kinetic run.h5 --mean layer                about the mean of each layer\n"
-    "  grseg-kinetic run.h5 --mean instant-unbiased     about the layer's mean in each frame\n"
-    "  grseg-kinetic run.h5 --velocity middle           velocities in the middle of steps\n"
+    "  grseg-kinetic run.h5 -o kinetic.tsv              mean: a fine velocity profile\n"
+    "  grseg-kinetic run.h5 --mean profile-unbiased     mean: the profile of all other grains\n"
+    "  grseg-kinetic run.h5 --mean layer                mean: of each layer\n"
+    "  grseg-kinetic run.h5 --mean instant-unbiased     mean: of each layer in each frame\n"
+    "  grseg-kinetic run.h5 --velocity middle           velocities at the middle of time steps\n"
     "  grseg-kinetic drum.h5 --bins xy --layer 2dS -o flow.pvd        a map, for ParaView\n"
     "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
     presets::kinetic};
@@ -35,10 +35,10 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("mean", word_option(&s.mean, words_of(mean_flows)),
-      ("mean velocity that fluctuations are counted from: " + list_of(mean_flows)).c_str());
+      ("mean that is subtracted from velocities to get dv: " + list_of(mean_flows)).c_str());
   add("velocity", word_option(&s.velocity, words_of(velocities_in_step)),
-      ("velocity within the step of a frame: " + list_of(velocities_in_step) +
-       "; imported frames have only one")
+      ("time of the velocity in the step of a frame: " + list_of(velocities_in_step) +
+       "; imported frames have only one velocity")
           .c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
@@ -73,15 +73,15 @@ void tabulate(FrameLoop& loop, MeanFlow flow, VelocityInStep which, const Header
     fmt::print(stderr, "{}: {}\n", info.name, sentence);
 }
 
-/// Takes the mean of the cell for a map, which has no profile. UsageError where a profile was asked
-/// for.
+/// Replaces the default --mean profile by --mean layer for a map, whose cells have no profile.
+/// Throws UsageError if the command line asks for a profile.
 void choose_mean_of_map(Settings& s, const po::variables_map& values)
 {
   if (!s.frames.map() || (s.mean != "profile" && s.mean != "profile-unbiased")) return;
   if (!values["mean"].defaulted())
     throw UsageError(fmt::format(
-        "--mean {} is a profile over height, which a map does not have; take layer, instant or "
-        "instant-unbiased, the mean of the cell",
+        "--mean {} is a profile over height, which a map does not have; use layer, instant or "
+        "instant-unbiased, which are means of the cell",
         s.mean));
   s.mean = word_of(MeanFlow::layer, mean_flows);
 }

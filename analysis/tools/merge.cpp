@@ -9,10 +9,10 @@ using namespace grseg;
 namespace {
 
 constexpr ToolInfo info{
-    "grseg-merge", "tables of grseg-stress as one: means weighted by frames, window by window.",
+    "grseg-merge", "merges tables of grseg-stress into one: per window, means weighted by frames.",
     "grseg-merge a.tsv b.tsv ... [options] > sums.tsv",
     "  grseg-merge seed1.tsv seed2.tsv -o sums.tsv      the sums of two runs as one table\n"
-    "  grseg-merge sums.tsv --all-windows               one window of all\n"};
+    "  grseg-merge sums.tsv --all-windows               all windows merged into one\n"};
 
 struct Settings {
   TableOptions output;

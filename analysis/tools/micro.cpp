@@ -17,11 +17,11 @@ using namespace grseg;
 namespace {
 
 constexpr ToolInfo info{
-    "grseg-micro", "sums over contacts, their forces and directions, by layer and of the bed.",
+    "grseg-micro", "sums of contacts, their forces and directions, by layer and for the bed.",
     "grseg-micro run.h5 [options] > micro.tsv",
-    "  grseg-micro run.h5 -o micro.tsv                  layers of 4 dS, windows of 1.25 s; a row of\n"
-    "                                                   each window is the bed's, y0 = nan\n"
-    "  grseg-micro run.h5 | grseg-derive -              z, f, Pi, B, friction, fabric of each row\n",
+    "  grseg-micro run.h5 -o micro.tsv                  layers of 4 dS, windows of 1.25 s;\n"
+    "                                                   rows with y0 = nan: the whole bed\n"
+    "  grseg-micro run.h5 | grseg-derive -              contacts per grain, mean forces, B, ...\n",
     presets::micro};
 
 constexpr Choice<GrainArea> areas[] = {{"clipped", GrainArea::clipped},
@@ -38,17 +38,17 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("composition", word_option(&s.composition, words_of(areas)),
-      "give layers the area or volume of a grain clipped at their edges, or whole at its centre "
-      "(centre)");
+      "area or volume of a grain in layers: clipped (cut at their edges) or centre (whole, in the "
+      "layer of its centre)");
   add("friction", po::value(&s.friction)->value_name("MU"),
-      "friction coefficient of the Coulomb limit at which contacts slide (default: the run's)");
+      "friction coefficient that decides which contacts slide (default: the run's)");
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
   return options;
 }
 
-/// NaN where neither the command line nor the run gives it.
+/// Friction coefficient from the command line or else from the run; NaN if neither has one.
 double friction_of(const Settings& s, const Parameters& parameters)
 {
   if (std::isnan(s.friction)) return parameters.find_number("friction").value_or(s.friction);
@@ -56,17 +56,18 @@ double friction_of(const Settings& s, const Parameters& parameters)
   return s.friction;
 }
 
-/// Components are those along x, y and z, so that annuli are left out.
+/// The choice of --composition. Throws UsageError for annuli, because tensors have components along
+/// x, y and z.
 GrainArea area_of(Settings& s, const po::variables_map& values)
 {
   const auto map = s.frames.map();
   if (s.frames.annuli() || map == MapPlane::rz)
-    throw UsageError(fmt::format("--bins {}: grseg-micro knows layers, xy and xz", s.frames.bins));
+    throw UsageError(fmt::format("--bins {}: grseg-micro has layers, xy and xz", s.frames.bins));
   if (map && values["composition"].defaulted()) s.composition = "centre";
   const auto area = choose(s.composition, "--composition", areas);
   if (map && area != GrainArea::centre)
     throw UsageError(
-        "--composition clipped: in a map a grain counts to the cell of its centre; take centre");
+        "--composition clipped: in a map a grain counts in the cell of its centre; use centre");
   return area;
 }
 

@@ -23,9 +23,9 @@ constexpr ToolInfo info{
     "grseg-render run.h5 -o picture.png|.svg|.pdf|film.mp4|.webm [options]",
     "  grseg-render run.h5 -o last.png                          the last frame, grains by species\n"
     "  grseg-render run.h5 --at start,end -o figure-1.pdf       as figure 1 of Staron & Phillips\n"
-    "  grseg-render run.h5 --color speed --at 10 -o speed.png   a field, and its colour bar\n"
+    "  grseg-render run.h5 --color speed --at 10 -o speed.png   a field, with its colour bar\n"
     "  grseg-render run.h5 --forces --partition size -o f.svg   force chains, mixed contacts split\n"
-    "  grseg-render run.h5 --width 86mm -o column.pdf           for a column of a paper\n"
+    "  grseg-render run.h5 --width 86mm -o column.pdf           as wide as a journal column\n"
     "  grseg-render run.h5 --every 0.1 --fps 25 -o film.mp4     a film, by ffmpeg\n"};
 
 struct Settings : RenderSettings {
@@ -40,19 +40,19 @@ po::options_description options_into(Settings& s)
   s.range.add_to(options);
   auto add = options.add_options();
   add("every", po::value(&s.every)->value_name("s"),
-      "of a film: time of the run from picture to picture (default: all frames)");
+      "films: simulated time between two pictures (default: all frames)");
   add("fps", po::value(&s.fps)->default_value(s.fps, "25")->value_name("N"),
-      "of a film: pictures per second");
+      "films: pictures per second");
   add("threads", po::value(&s.threads)->default_value(s.threads)->value_name("N"),
-      "of a film: number of threads, 0: one per processor; the film is the same");
+      "films: number of threads (0: one per processor), which does not change the film");
   s.grouping.add_to(options);
   s.trust.add_to(options);
-  add("quiet", po::bool_switch(&s.quiet), "no progress");
-  s.output.add_to(options, "a picture that ends in .png, .svg or .pdf, or a film in .mp4 or .webm");
+  add("quiet", po::bool_switch(&s.quiet), "print no progress on standard error");
+  s.output.add_to(options, "file to write: a picture (.png, .svg, .pdf) or a film (.mp4, .webm)");
   return options;
 }
 
-/// The header of a table about this run, as text.
+/// Text of the header lines that a table about this run would have.
 std::string history_of(const TrajectoryReader& run, const std::string& command)
 {
   auto lines = provenance(info, "none", run, command);
@@ -76,10 +76,10 @@ void render(Settings& s, const po::variables_map& values, const std::string& com
   const TrajectoryReader run(single_input(values, "render one at a time"), s.trust.verify());
   s.output.check(values);
   if (is_film(kind))
-    refuse_options(values, {"at"}, "makes a picture; of a film say --begin and --end");
+    refuse_options(values, {"at"}, "is for pictures; for a film use --begin and --end");
   else
     refuse_options(values, {"begin", "end", "stride", "every", "fps", "threads"},
-                   "concerns films; name one, as in -o film.mp4, or say --at");
+                   "is for films; name a film, as in -o film.mp4, or use --at for a picture");
   check_film(s);
   s.program = info.name;
   if (s.threads == 0)

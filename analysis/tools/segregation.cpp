@@ -17,12 +17,12 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-segregation",
-    "how fast the species separate: fluxes, diffusivities, segregation times and Peclet number.",
+    "rates of segregation: fluxes, diffusivities, segregation times and Peclet number.",
     "grseg-segregation run.h5 [options] > segregation.tsv",
-    "  grseg-segregation run.h5 -o segregation.tsv             by layer and window, and the bed\n"
+    "  grseg-segregation run.h5 -o segregation.tsv             by window, for layers and bed\n"
     "  grseg-segregation run.h5 --summary                      times, S, D, Pe of the whole run\n"
     "  grseg-segregation run.h5 --summary --heights 4dS:56dS   without base and surface\n"
-    "  grseg-segregation run.h5 --window 5                     D over a longer time\n",
+    "  grseg-segregation run.h5 --window 5                     diffusivity D over a longer time\n",
     presets::segregation};
 
 struct Settings {
@@ -36,7 +36,7 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("summary", po::bool_switch(&s.summary),
-      "print numbers of the whole run with 95 % intervals instead of layers and windows");
+      "print results of the whole run, with 95 % intervals, instead of rows by layer and window");
   s.filter.add_layers_to(options, "with --summary: ");
   s.frames.add_to(options);
   return options;

@@ -7,7 +7,6 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/words.hpp"
-#include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
 
 using namespace grseg;
@@ -16,7 +15,7 @@ namespace {
 
 constexpr ToolInfo info{
     "grseg-stress",
-    "sums of force (x) branch by layer, window and pair of species: contact stress.",
+    "contact stress (sums of force (x) branch vector) by layer, window and pair of species.",
     "grseg-stress run.h5 [options] > sums.tsv",
     "  grseg-stress run.h5 -o sums.tsv                  layers of 4 dS, windows of 1.25 s\n"
     "  grseg-stress run.h5 --assign branch --layer 1dS  thin layers, exact momentum balance\n"
@@ -38,35 +37,33 @@ po::options_description options_into(Settings& s)
   s.assignment.add_to(options);
   auto add = options.add_options();
   add("partition", word_option(&s.partition, words_of_rule()),
-      "default rule of grseg-fit for this table; power:Q adds columns Mpower_*");
+      "rule that grseg-fit uses by default for this table; power:Q adds columns Mpower_*");
   add("base-part", word_option(&s.base, words_of(base_parts)),
-      ("likewise, the part of a contact with the base or a wall that its grain gets: " +
+      ("default of grseg-fit, too: part of a contact with base or wall that its grain gets: " +
        list_of(base_parts))
           .c_str());
   add("volume", word_option(&s.volume, words_of(stress_volumes)),
-      ("likewise, the volume that sums are divided by: " + list_of(stress_volumes)).c_str());
+      ("default of grseg-fit, too: volume to divide by: " + list_of(stress_volumes)).c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
   return options;
 }
 
-/// The choices of --partition, --base-part and --volume, by which maps make stress of sums. A table
-/// of layers only passes them on to grseg-fit, except for the exponent of Mpower_*.
+/// Choices by which sums become stress in a map. For a table of layers grseg-fit makes them.
 MapStress stress_of(Settings& s)
 {
-  const auto volume = choose(s.volume, "--volume", stress_volumes);
-  const auto base = choose(s.base, "--base-part", base_parts);
-  const auto rule = parse_rule(s.partition);
-  s.partition = rule.name();
-  return {rule, base, volume};
+  const MapStress how{parse_rule(s.partition), choose(s.base, "--base-part", base_parts),
+                      choose(s.volume, "--volume", stress_volumes)};
+  s.partition = how.rule.name();
+  return how;
 }
 
 template <int D>
 void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chosen,
               const MapStress& how, const std::string& command)
 {
-  std::optional<double> power;  // the exponent of Mpower_*, where the rule asks for these columns
+  std::optional<double> power;  // exponent of the columns Mpower_*, if the rule needs them
   if (how.rule.kind == PartitionRule::Kind::power) power = how.rule.value;
   const bool map = loop.layers().map() != nullptr;
   Header settings{{"assign", s.assignment.assign},
@@ -112,12 +109,7 @@ void tabulate(Settings& s, const po::variables_map& values, const std::string& c
   s.assignment.require_bins(chosen, s.frames);
   const auto how = stress_of(s);
   FrameLoop loop(info, values, s.frames);
-  with_dimension(loop.dimension(), [&](auto d) {
-    if (d == 3 && s.frames.annuli() && chosen.area == GrainArea::clipped)
-      throw UsageError(
-          "--bins radius: spheres are not clipped at annuli; take --composition centre");
-    tabulate<d>(loop, s, chosen, how, command);
-  });
+  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, chosen, how, command); });
 }
 
 }  // namespace

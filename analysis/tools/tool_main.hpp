@@ -7,8 +7,8 @@
 
 namespace grseg {
 
-/// The main of a tool: its command line into `Settings`, by the options that `options_into` adds
-/// for them, and then `work`, with the line of the history.
+/// Main function of an analysis tool. Parses the command line into `Settings` by the options of
+/// `options_into`, and then calls `work`, whose `command` is this tool's line of the history.
 template <class Settings>
 int tool_main(int argc, char** argv, const ToolInfo& info,
               po::options_description (*options_into)(Settings&),

@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-// crc32, since Python's library has it, too (grseg.py).
+// crc32, because Python's standard library has it, too (grseg.py).
 std::string text_of(const boost::crc_32_type& crc)
 {
   return fmt::format("{:08x}", crc.checksum());
@@ -25,14 +25,14 @@ void add(boost::crc_32_type& crc, const std::vector<T>& values)
   crc.process_bytes(values.data(), values.size() * sizeof(T));
 }
 
-/// Keys of a scene, and options of a restart, that leave every step as it is: how long a run lasts,
-/// what of it is stored, how and where.
+/// Scene keys and restart options that do not affect the motion: length of the run, and what is
+/// stored, how and where.
 constexpr std::string_view of_no_effect[] = {
     "duration", "frame-interval",   "burst",  "keep-deposition", "compression",
     "store",    "threads",          "isa",    "restart",         "checkpoint",
     "output",   "checkpoint-every", "strict", "overwrite",       "quiet"};
 
-/// The lines of a scene, "key = value", that act on the motion.
+/// The lines "key = value" of a scene that affect the motion.
 std::string acting_lines(const std::string& scene)
 {
   std::istringstream lines(scene);
@@ -42,12 +42,12 @@ std::string acting_lines(const std::string& scene)
   return acting;
 }
 
-/// The options of a restart that act on the motion, with their values, and since when.
+/// The options of a restart that affect the motion, with their values and start time.
 std::string acting_options(const std::string& command)
 {
   std::istringstream words(command);
   std::string acting;
-  bool takes = false;  // whether the word before is an option that acts
+  bool takes = false;  // true after an option that affects the motion: the next word is its value
   for (std::string word; words >> word;) {
     const bool option = word.starts_with("--");
     if (option) takes = acts_on_motion(std::string_view(word).substr(2, word.find('=') - 2));

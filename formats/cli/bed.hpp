@@ -9,32 +9,32 @@
 
 namespace grseg {
 
-/// The line "bed" of a table. It tells one run from another, whichever frames their files hold:
+/// The header line "bed" of a table, which identifies a run independently of the stored frames:
 ///
 ///   grains 205, sizes 203, crc32 0a1b2c3d, seed 1, flow 9f8e7d6c
 ///
-/// A run, its continuation and a run from a checkpoint of it have one bed.
+/// A run, its continuation and any run from one of its checkpoints have the same bed.
 struct Bed {
-  /// "grains 205, sizes 203, crc32 0a1b2c3d": the rows of the file, how many radii differ, and the
-  /// crc32 of the radii (8 bytes each, little endian) and, after them, the ids (4 bytes).
+  /// "grains 205, sizes 203, crc32 0a1b2c3d": number of grains in the file, number of different
+  /// radii, and crc32 of all radii (8 bytes each, little endian) and then all ids (4 bytes each).
   std::string grains;
-  /// True where more than half of the radii differ, so that no other seed has them.
+  /// True if more than half of the radii differ; no other seed then has the same radii.
   bool varied = false;
-  /// True where other parts of the run may list other grains.
+  /// True if grains enter and leave: files of other parts of the run may list other grains.
   bool come_and_go = false;
-  std::string seed;  ///< of the scene; "" where the run states none
-  /// crc32 of the keys of the scene, and options of its restarts, that act on the motion from the
-  /// deposition on; "" where the run does not state its scene.
+  std::string seed;  ///< seed of the scene; "" if the run does not state it
+  /// crc32 of the scene keys and restart options that affect the motion of grains, from the
+  /// deposition on; "" if the run does not state its scene.
   std::string flow;
 
   std::string text() const;
 };
 
-/// True of keys of a scene, and options of grseg-sim, that act on how grains move.
+/// True for scene keys and options of grseg-sim that affect how grains move.
 bool acts_on_motion(std::string_view key);
 
 Bed bed_of(const TrajectoryReader& run);
-/// The bed that a line describes; nothing if the line cannot be read.
+/// The bed from the value of a header line "bed"; empty if the text cannot be read.
 std::optional<Bed> parse_bed(const std::string& text);
 
 }  // namespace grseg

@@ -18,7 +18,7 @@ bool takes_value(const po::option_description& option)
   return option.semantic()->max_tokens() > 0;
 }
 
-/// The name of the value as --help shows it: "FILE", or "arg" where the option names none.
+/// Name of the option's value as --help shows it, such as "FILE"; "arg" if the option names none.
 std::string name_of_value(const po::option_description& option)
 {
   const auto words = option.format_parameter();
@@ -30,7 +30,7 @@ bool takes_file(const po::option_description& option)
   return name_of_value(option).starts_with("FILE");
 }
 
-/// "_grseg_stress", the name of the function.
+/// Name of the shell function that completes `tool`: "_grseg_stress".
 std::string function_of(const std::string& tool)
 {
   auto name = "_" + tool;
@@ -38,7 +38,7 @@ std::string function_of(const std::string& tool)
   return name;
 }
 
-/// "--output" and, where there is one, "-o".
+/// Long name of the option and its short name if there is one: "--output", "-o".
 std::vector<std::string> names_of(const po::option_description& option)
 {
   std::vector<std::string> names{"--" + option.long_name()};
@@ -47,7 +47,7 @@ std::vector<std::string> names_of(const po::option_description& option)
   return names;
 }
 
-/// The words that the value may be, "uniform:" for "uniform:P"; none where it is no word.
+/// Words that the option accepts, with "uniform:" for "uniform:P"; none if its value is not a word.
 std::vector<std::string> words_for(const po::option_description& option)
 {
   const auto* known = dynamic_cast<const OptionWords*>(option.semantic().get());
@@ -61,7 +61,7 @@ bool takes_list(const po::option_description& option)
   return name_of_value(option).ends_with(",...");
 }
 
-/// The first clause of a description.
+/// The first clause of an option's description.
 std::string short_text(const std::string& description)
 {
   const auto end = std::min(description.find_first_of(";(\n"), description.find(": "));
@@ -69,8 +69,8 @@ std::string short_text(const std::string& description)
   return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-/// Statement of the script for the values of an option: `from` lists its words; empty where it
-/// takes files.
+/// Shell statement that sets `from` to the words that the option accepts; empty for an option whose
+/// value is a file.
 std::string source_of(const po::option_description& option)
 {
   const auto words = words_for(option);
@@ -79,8 +79,8 @@ std::string source_of(const po::option_description& option)
                      takes_list(option) ? "before=${word%\"${word##*,}\"} " : "");
 }
 
-// Both shells know arrays, [[ ]] and ${x%%y}. zsh also takes the script from its fpath (#compdef),
-// lists descriptions, and knows how to add words itself.
+// The script uses only what bash and zsh have in common: arrays, [[ ]] and ${x%%y}. zsh can also
+// load the script from its fpath (#compdef), lists descriptions, and inserts words itself.
 constexpr const char* script = R"(#compdef {0}
 # completion of {0} in bash and zsh, printed by {0} --completion {2}
 {1}()

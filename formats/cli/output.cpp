@@ -35,18 +35,18 @@ void OutputOptions::check(const po::variables_map& values) const
 void TableOptions::add_to(po::options_description& options)
 {
   options.add_options()("short", po::bool_switch(&short_form),
-                        "print a short table for reading, as on a terminal; with -o beside the "
-                        "whole one in FILE");
+                        "print a short, readable table, as on a terminal; with -o FILE also write "
+                        "the whole table");
   options.add_options()("digits", po::value(&digits)->value_name("N"),
-                        "significant digits of numbers (default: 17 in the whole table, few in the "
-                        "short one)");
+                        "significant digits of numbers (default: 17 in the whole table, fewer in "
+                        "the short one)");
   OutputOptions::add_to(options,
-                        "write the whole table there; -: to standard output, even on a terminal");
+                        "write the whole table to FILE; -: to standard output, also on a terminal");
 }
 
 void TableOptions::check(const po::variables_map& values) const
 {
-  constexpr int most = 17;  // what a double has
+  constexpr int most = 17;  // significant digits of a double
   if (values.contains("digits") && (digits < 1 || digits > most))
     throw UsageError(fmt::format("--digits {}: it must be 1 to {}", digits, most));
   const bool json = values.contains("json") && values["json"].as<bool>();
@@ -111,7 +111,7 @@ GrowingTable::~GrowingTable() = default;
 
 bool GrowingTable::is_large(const Table& table)
 {
-  constexpr std::size_t many_numbers = 1'000'000;  // some 20 MB of text
+  constexpr std::size_t many_numbers = 1'000'000;  // about 20 MB of text
   return table.rows.size() * table.columns.size() > many_numbers;
 }
 

@@ -17,10 +17,11 @@ OutputPart parse_part(const std::string& text)
 {
   OutputPart part;
   char more = 0;
-  if (std::sscanf(text.c_str(), "%zu/%zu%c", &part.number, &part.count, &more) != 2 ||
+  if (text.find_first_not_of("0123456789/") != std::string::npos ||
+      std::sscanf(text.c_str(), "%zu/%zu%c", &part.number, &part.count, &more) != 2 ||
       part.number < 1 || part.number > part.count || part.count > most_parts)
     throw UsageError(fmt::format(
-        "--part '{}': give the number of the part and how many there are, as in 3/16", text));
+        "--part '{}': write the number of the part and the number of parts, as in 3/16", text));
   return part;
 }
 
@@ -49,25 +50,25 @@ void PartOptions::add_to(po::options_description& options)
       "part",
       po::value<std::string>()->value_name("K/N")->notifier(
           [this](const std::string& text) { part = parse_part(text); }),
-      "make only the K-th of N parts of the output, run.part-K-of-N.tsv for -o run.tsv; each part "
-      "may be made by a process of its own");
+      "make only part K of N of the output (with -o run.tsv: run.part-K-of-N.tsv), so that several "
+      "processes can share the work");
   options.add_options()(
       "join", po::value<std::size_t>(&join)->value_name("N")->notifier([](std::size_t n) {
         if (n < 1 || n > most_parts)
           throw UsageError(fmt::format("--join {}: it must be 1 to {}", n, most_parts));
       }),
-      "join the N parts of the output, with all other options as for the parts; gives the bytes "
-      "that one process would write");
+      "join the N parts of the output; all other options as for --part. The result has the same "
+      "bytes as without parts");
 }
 
 void PartOptions::check(const std::string& output) const
 {
-  if (part && join > 0) throw UsageError("--part makes a part and --join needs all; take one");
+  if (part && join > 0) throw UsageError("--part and --join cannot be combined; use one of them");
   if (part && (output.empty() || output == "-"))
     throw UsageError(fmt::format(
         "--part {} writes a file: name the whole output with -o, as in -o sums.tsv", part->text()));
   if (join > 0 && (output.empty() || output == "-"))
-    throw UsageError("--join reads the parts of a file: name this with -o, as in -o sums.tsv");
+    throw UsageError("--join makes a file from its parts: name it with -o, as in -o sums.tsv");
 }
 
 }  // namespace grseg

@@ -15,8 +15,9 @@
 namespace grseg {
 namespace {
 
-constexpr double first_on_terminal = 0.3, between_on_terminal = 0.2;  // s
-constexpr double first_in_file = 10, between_in_file = 30;            // s
+// Time until the first output, and time between two outputs, s.
+constexpr double first_on_terminal = 0.3, between_on_terminal = 0.2;
+constexpr double first_in_file = 10, between_in_file = 30;
 
 std::string bar(double done, double total)
 {

@@ -7,44 +7,44 @@
 
 namespace grseg {
 
-/// The work of a program: `total` things, such as 150 "s of flow", counted from `from`, such as t =
-/// 10 s. A total of 0 means unknown.
+/// Amount of work of a program: from `from` (e.g. 10) up to `total` (e.g. 150), in units named
+/// `things` (e.g. "s of flow"). A total of 0 means unknown.
 struct Work {
   std::string things;
   double total = 0;
   double from = 0;
-  int digits = 0;  // behind the decimal point
+  int digits = 0;  // number of decimals shown
 };
 
-/// "123 of 400 frames, 35/s, 0:08 left". Rate and time left are missing where nothing is done yet
-/// or no time has passed, and the parts that need the total where it is unknown. `seconds` since
-/// the work began.
+/// "123 of 400 frames, 35/s, 0:08 left", where `seconds` is the time since the work began. Rate and
+/// time left are omitted if nothing is done yet or no time has passed; "of 400" and the time left
+/// are omitted if the total is unknown.
 std::string progress_text(double done, const Work& work, double seconds);
 
-/// Writes to standard error as far as it can: a terminal that is gone, or a log on a full disk, is
-/// no reason to stop.
+/// Writes to standard error and ignores failures: a closed terminal, or a log on a full disk, must
+/// not stop a program.
 void tell(std::string_view text);
 
-/// Shows progress on standard error: on a terminal in one line that is redrawn, in a file in a line
-/// now and then, in a pipe or with `quiet` not at all. The first line appears when the work turns
-/// out to take a while.
+/// Progress display on standard error. A terminal shows one line that is redrawn, a file receives a
+/// line now and then, a pipe none; `quiet` suppresses all. The first line appears only if the work
+/// takes a while.
 class ProgressBar {
  public:
-  /// "grseg-render: 12 of 400 frames": `program` does `work`.
+  /// A display such as "grseg-render: 12 of 400 frames" for the work `work` of `program`.
   ProgressBar(const char* program, Work work, bool quiet);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   /// Clears the line.
   ~ProgressBar() { clear(); }
 
-  /// Replaces the work by another; its time begins now.
+  /// Starts to display other work, whose time begins now.
   void begin(Work work);
-  /// Shows that `done` of the things are done. Not by several threads at once.
+  /// Shows that the work has reached `done` (in units of Work::things). Not thread-safe.
   void show(double done);
-  /// Prints a stage of the work that has no number, such as "depositing the bed", at once and on a
-  /// terminal only.
+  /// Prints a stage of the work that has no count, such as "depositing the bed", at once, but only
+  /// on a terminal.
   void say(const std::string& text) const;
-  /// Leaves an empty line on the terminal, where other words may follow.
+  /// Clears the line on the terminal, so that other output can follow.
   void clear() const;
 
  private:
@@ -55,7 +55,7 @@ class ProgressBar {
   Work work_;
   Where where_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double next_ = 0;  // s since then, at which something is shown again
+  double next_ = 0;  // s after begin_, time of the next output
 };
 
 /// Suggests the next command on a terminal: "next: grseg-fit stress.tsv". Prints nothing in a file,

@@ -17,7 +17,7 @@
 namespace grseg {
 namespace {
 
-/// A header line for each line of a parameter.
+/// Adds a header line `key` for each line of the text `parameter` of the run.
 void add_lines(Header& header, const char* key, const TrajectoryReader& run, const char* parameter)
 {
   std::istringstream lines(run.parameters().text(parameter));
@@ -78,10 +78,10 @@ Header settings_of(const Table& table)
   return settings;
 }
 
-// Largest relative difference of equal settings. A difference of two times t in double precision is
-// off by 2^-52 t: by less than this part of a window for t up to four million windows. Other
-// settings are products of two or three numbers. Different settings differ by a step of time or a
-// typed digit, which is more.
+// Largest relative difference of settings that count as equal. A window computed as the difference
+// of two times t has a round-off error of 2^-52 t, which is below this limit up to t = four million
+// windows. Other settings are products of two or three numbers. Settings that really differ do so
+// by a time step or a typed digit, which is more.
 constexpr double setting_round_off = 1e-9;
 
 bool same_setting(const std::string& a, const std::string& b)
@@ -129,7 +129,7 @@ Header trust_of(const std::vector<Table>& tables)
 void TrustOption::add_to(po::options_description& options)
 {
   options.add_options()("trust", po::bool_switch(&trust),
-                        "read without comparing content with its digests");
+                        "do not verify the content of runs with the digests in their files");
 }
 
 Header verification_lines(const TrajectoryReader& run)

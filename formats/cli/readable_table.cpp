@@ -23,11 +23,11 @@ std::string rounded(const std::string& cell, int digits)
   return number && !whole ? fmt::format("{:.{}g}", *number, digits) : cell;
 }
 
-/// Lines of a table in cells, without the last one, which ends it; lines above the rows stay as
-/// they are.
+/// A table split into cells, with rounded numbers. The header lines stay one text; the last line of
+/// the table (end_line()) is dropped.
 struct Cells {
-  std::string head;
-  std::vector<Line> lines;  // the first has the names of the columns
+  std::string head;         // header lines "# key: value"
+  std::vector<Line> lines;  // cells of each line; the first line has the column names
 
   Cells(std::string_view table, int digits)
   {
@@ -46,7 +46,7 @@ struct Cells {
   }
 };
 
-/// Leaves out the middle of many rows; how many that are.
+/// Removes the middle rows of a long table; returns the number of removed rows.
 std::size_t shorten(std::vector<Line>& lines)
 {
   constexpr std::ptrdiff_t at_each_end = 20;
@@ -57,14 +57,14 @@ std::size_t shorten(std::vector<Line>& lines)
   return left_out;
 }
 
-/// Columns of tables by layer that most readers look for; they are shown first where not all fit.
+/// Columns that most readers look for in tables by layer; shown first if not all columns fit.
 constexpr std::string_view sought[] = {
     "t0",      "y0",          "phi_L",     "yL",     "height", "z_S",   "z_L",     "f_S",
     "f_L",     "sliding_all", "a_c_all",   "n_SS",   "n_LS",   "n_LL",  "A_SS_yy", "A_LL_yy",
     "M_yy",    "u",           "du_dy",     "K_S_yy", "K_L_yy", "T_S_y", "T_L_y",   "Sc_S_yy",
     "Sc_L_yy", "force_S_y",   "force_L_y", "w_L",    "q_L",    "D_S",   "D_L",     "Pe"};
 
-/// Leaves only the columns that are sought; all where there are few of them.
+/// Removes all columns that are not in `sought`, unless fewer than five remain.
 void choose_columns(std::vector<Line>& lines)
 {
   std::vector<std::size_t> chosen;
@@ -81,7 +81,7 @@ void choose_columns(std::vector<Line>& lines)
   }
 }
 
-/// How many of the columns fit, at least one.
+/// Number of columns, from the left, that fit into readable_width; at least one.
 std::size_t fitting(const std::vector<Line>& lines)
 {
   std::size_t width = 0, column = 0;

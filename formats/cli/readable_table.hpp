@@ -7,23 +7,23 @@
 #include <string_view>
 #include <vector>
 
-/// Tables for reading, made of the text of whole ones (table.hpp).
+/// Short tables for people to read, made from the text of whole tables (table.hpp).
 namespace grseg {
 
-inline constexpr std::size_t readable_width = 100;  // columns of letters
+inline constexpr std::size_t readable_width = 100;  // width of a short table, characters
 
-/// Lines of equally many cells as text, in columns as wide as their cells need: aligned to the left
-/// where `left` is true, else to the right.
+/// Text of `lines`, which all have the same number of cells, with each column as wide as its widest
+/// cell. Columns for which `left` is true are aligned to the left, others to the right.
 std::string aligned(const std::vector<std::vector<std::string>>& lines,
                     const std::function<bool(std::size_t column)>& left);
 
-/// The table for a terminal, without its lines "# key: value": as many columns as fit, the most
-/// sought ones first; the first and last rows where there are many; numbers of `digits` significant
-/// digits. A last line says what is left out.
+/// Short table for a terminal, without the lines "# key: value" and with `digits` significant
+/// digits. If the columns do not all fit, the most useful ones come first; of many rows only the
+/// first and last ones are shown. A last line reports how many columns and rows are left out.
 std::string readable_table(std::string_view table, int digits);
 
-/// The whole table with numbers of `digits` significant digits; words and whole numbers stay as
-/// they are.
+/// The whole table with numbers rounded to `digits` significant digits; words and whole numbers
+/// stay unchanged.
 std::string rounded_table(std::string_view table, int digits);
 
 }  // namespace grseg

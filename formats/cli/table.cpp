@@ -14,7 +14,7 @@
 namespace grseg {
 namespace {
 
-/// Adds cells with tabs between them, each as `text_of` writes it.
+/// Appends a line of tab-separated cells to `text`, each converted by `text_of`.
 template <class Cells, class Text>
 void add_line(std::string& text, const Cells& cells, const Text& text_of)
 {

@@ -28,7 +28,7 @@ std::vector<std::string_view> split(std::string_view text, char at)
   return parts;
 }
 
-/// Reads a table line by line and refuses what a damaged one may hold.
+/// Reads a table line by line and throws FormatError if the table is damaged.
 class TableParser {
  public:
   TableParser(const std::string& text, const std::string& name) : text_(text)
@@ -144,8 +144,8 @@ class TableParser {
   void read_row(std::size_t k)
   {
     if (lines_[k].starts_with('#'))
-      fail(k, fmt::format("'{}' stands among the rows; only the last line, '{}N rows, xxh3 ...', "
-                          "may begin so",
+      fail(k, fmt::format("'{}' is between the rows; only the last line, '{}N rows, xxh3 ...', may "
+                          "begin with #",
                           excerpt(lines_[k]), end_mark));
     const auto cells = split(lines_[k], '\t');
     if (cells.size() != table_.columns.size())
@@ -162,8 +162,8 @@ class TableParser {
 
   const std::string& text_;
   Table table_;
-  std::vector<std::string_view> lines_;  // the last may be the line that ends the table
-  bool has_end_ = false;
+  std::vector<std::string_view> lines_;  // all lines, including "# end: ..." if there is one
+  bool has_end_ = false;                 // true: the last line is "# end: ..."
 };
 
 }  // namespace

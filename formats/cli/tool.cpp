@@ -20,7 +20,8 @@ namespace {
 constexpr Choice<const char * PresetOption::*> preset_names[] = {
     {"paper", &PresetOption::paper}, {"rigorous", &PresetOption::rigorous}};
 
-/// Adds to `values`, as defaults, what the preset sets and is not given explicitly.
+/// Adds the option values of the preset to `values`, as defaults, except for options that were
+/// given explicitly.
 void apply_preset(const ToolInfo& info, const po::options_description& options,
                   po::variables_map& values)
 {
@@ -65,7 +66,7 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
 
   for (int k = 1; k < argc; ++k)
     if (const auto word = placeholder_in(argv[k]); !word.empty())
-      throw UsageError(fmt::format("no argument may hold {}; --help lists all options", word));
+      throw UsageError(fmt::format("no argument may contain {}; --help lists all options", word));
   po::variables_map values;
   try {
     po::store(po::command_line_parser(argc, argv)
@@ -100,8 +101,8 @@ void print_help(const ToolInfo& info, const po::options_description& options)
          "128 + N ended by signal N (130 Ctrl-C, 143 SIGTERM).\n";
 }
 
-/// Prints an error. Its sentence may quote a file or a file's name, so it is made printable: no
-/// file may send control characters to the terminal.
+/// Prints the message of an error. The message may quote a file or its name and is therefore made
+/// printable, so that no file can send control characters to the terminal.
 void print_error(const ToolInfo& info, const std::exception& error)
 {
   std::cerr << info.name << ": " << printable_lines(error.what()) << '\n';
@@ -112,7 +113,7 @@ void print_error(const ToolInfo& info, const std::exception& error)
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body)
 {
-  // A write beyond a limit on file sizes then fails, which is told, instead of killing the program.
+  // A write beyond a limit on file sizes then fails with a message instead of killing the program.
   std::signal(SIGXFSZ, SIG_IGN);
   po::options_description all = options;
   const auto presets = help_of(info.presets);
@@ -121,7 +122,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   all.add_options()("version", "print the version and exit");
   all.add_options()("cite", "print what to cite, as BibTeX, and exit");
   all.add_options()("completion", word_option(nullptr, shells()),
-                    "print a script by which bash or zsh completes this command, and exit");
+                    "print a script that lets bash or zsh complete this command, and exit");
   all.add_options()("help,h", "print this text and exit");
   try {
     const auto values = parse(argc, argv, info, all);

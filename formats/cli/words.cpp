@@ -44,7 +44,7 @@ std::string list_of_words(const std::vector<std::string>& words)
 std::string unknown_word(const std::string& what, const std::string& word,
                          const std::vector<std::string>& known)
 {
-  constexpr std::size_t long_list = 5;  // a shorter one is itself the suggestion
+  constexpr std::size_t long_list = 5;  // words; a shorter list needs no suggestion
   const auto guess = known.size() < long_list ? "" : nearest(word, known);
   return fmt::format("unknown {} '{}'{} {}", what, word,
                      guess.empty() ? "; choose" : fmt::format(", did you mean {}? Choose", guess),
@@ -55,7 +55,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 {
   std::string best;
   const auto letters = word.size() - std::min(word.find_first_not_of('-'), word.size());
-  // A slip changes one letter in three; where more differ, nothing says that this was meant.
+  // A typing error changes about one letter in three; words that differ more are not suggested.
   std::size_t least = std::min(letters, (letters + 2) / 3 + 1);
   for (const auto& candidate : known) {
     const auto distance = edit_distance(word, candidate);
@@ -77,7 +77,7 @@ std::string placeholder_in(std::string_view text)
 
 namespace {
 
-/// True where no shell gives a character of the word a meaning; zsh takes =NAME for a program.
+/// True if no character of the word has a special meaning in a shell (zsh expands =NAME to a path).
 bool is_bare(std::string_view word)
 {
   constexpr auto harmless =
@@ -86,8 +86,8 @@ bool is_bare(std::string_view word)
          word.find_first_not_of(harmless) == std::string_view::npos;
 }
 
-/// Inside $'...'. Three octal digits end by themselves, hexadecimal ones may run into the next
-/// letter.
+/// A character as written inside $'...'. Octal escapes always have three digits, whereas a
+/// hexadecimal escape could absorb the next letter.
 std::string escaped(char c)
 {
   if (c == '\'' || c == '\\') return {'\\', c};

@@ -13,13 +13,13 @@
 
 namespace grseg {
 
-/// A word that a user may type and what it stands for. The words of one option stand in one array;
-/// the functions below read and list them.
+/// A word that a user may type, and the value that it means. The words of one option form an array;
+/// the functions below search and list such arrays.
 template <class Value>
 struct Choice {
   const char* word;
   Value value;
-  const char* meaning = "";  // for --help; "" where the word is enough
+  const char* meaning = "";  // explanation in --help; "" if the word explains itself
 };
 
 template <class Value, std::size_t N>
@@ -31,18 +31,18 @@ std::vector<std::string> words_of(const Choice<Value> (&choices)[N])
   return words;
 }
 
-/// "1 table", "2 tables".
+/// Number and noun: "1 table", "2 tables".
 std::string counted(std::size_t number, const char* thing);
 
-/// "gauss, lucy or heaviside".
+/// Words joined by commas and "or": "gauss, lucy or heaviside".
 std::string list_of_words(const std::vector<std::string>& words);
 
-/// "unknown --kernel 'gaus'; choose gauss, lucy or heaviside". `what` names the option or key. Of a
-/// long list the nearest word is suggested first.
+/// Message "unknown --kernel 'gaus'; choose gauss, lucy or heaviside". `what` names the option or
+/// key. If there are five or more known words, the message suggests the nearest one first.
 std::string unknown_word(const std::string& what, const std::string& word,
                          const std::vector<std::string>& known);
 
-/// The word of `value`; "" where it has none.
+/// The word that means `value`; "" if there is none.
 template <class Value, std::size_t N>
 const char* word_of(Value value, const Choice<Value> (&choices)[N])
 {
@@ -51,7 +51,7 @@ const char* word_of(Value value, const Choice<Value> (&choices)[N])
   return "";
 }
 
-/// "profile (over the window), layer or instant", for --help.
+/// List of words with their meanings for --help: "profile (over the window), layer or instant".
 template <class Value, std::size_t N>
 std::string list_of(const Choice<Value> (&choices)[N])
 {
@@ -63,7 +63,7 @@ std::string list_of(const Choice<Value> (&choices)[N])
   return list_of_words(words);
 }
 
-/// Value of `word`; none where it is not among the choices.
+/// Value of `word`; empty if the word is not among the choices.
 template <class Value, std::size_t N>
 std::optional<Value> find_choice(const std::string& word, const Choice<Value> (&choices)[N])
 {
@@ -72,7 +72,7 @@ std::optional<Value> find_choice(const std::string& word, const Choice<Value> (&
   return std::nullopt;
 }
 
-/// Value of `word`. UsageError (unknown_word) where it is not among the choices.
+/// Value of `word`. Throws UsageError (unknown_word()) if the word is not among the choices.
 template <class Value, std::size_t N>
 Value choose(const std::string& word, const char* what, const Choice<Value> (&choices)[N])
 {
@@ -80,22 +80,22 @@ Value choose(const std::string& word, const char* what, const Choice<Value> (&ch
   throw UsageError(unknown_word(what, word, words_of(choices)));
 }
 
-/// "%value%" or another placeholder of Boost.ProgramOptions in `text`, else "". Boost puts the
-/// typed text in the place of such words of its sentences, and never ends where that is again such
-/// a word.
+/// "%value%" or another placeholder of Boost.ProgramOptions that `text` contains, else "". Boost
+/// replaces placeholders in its messages by the typed text, and loops for ever if the typed text is
+/// itself a placeholder.
 std::string placeholder_in(std::string_view text);
 
-/// The known word nearest to `word`, or "" where all differ in more than one letter of three.
-/// Dashes before a word do not count as letters.
+/// The known word nearest to `word`; "" if all differ in more than one letter of three. Dashes
+/// before a word do not count as letters.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
-/// `word` as a shell's command line writes it, in printable characters: bare where every character
-/// is harmless, else in single quotes, and as $'...' (bash, zsh, ksh, POSIX 2024) where it holds a
-/// control character or what is not UTF-8.
+/// `word` quoted for a shell command line, in printable characters: unquoted if no character is
+/// special, else in single quotes, or as $'...' (bash, zsh, ksh, POSIX 2024) if it contains control
+/// characters or invalid UTF-8.
 std::string shell_word(std::string_view word);
 
-/// Values of an option, for --completion. Words are written as messages list them: letters after a
-/// colon stand for something else, as in "uniform:P".
+/// Words that an option accepts, for --completion. They are written as messages list them: letters
+/// after a colon are placeholders, such as P in "uniform:P".
 struct OptionWords {
   std::vector<std::string> words;
 
@@ -112,15 +112,15 @@ struct WordOption : boost::program_options::typed_value<T>, OptionWords {
   }
 };
 
-/// An option that takes one of `words`. Its default is the text at `place`, if there is any.
+/// An option whose value is one of `words`. Its default is the text at `place`, unless it is empty.
 inline auto* word_option(std::string* place, const std::vector<std::string>& words)
 {
-  auto* option = new WordOption<std::string>(place, words);  // whoever takes it owns it
+  auto* option = new WordOption<std::string>(place, words);  // owned by the options_description
   if (place != nullptr && !place->empty()) option->default_value(*place);
   return option;
 }
 
-/// An option that takes several by comma, and may be given more than once.
+/// An option whose value is a comma-separated list of `words`; it may be given more than once.
 inline auto* words_option(std::vector<std::string>& place, const std::vector<std::string>& words)
 {
   auto* option = new WordOption<std::vector<std::string>>(&place, words);

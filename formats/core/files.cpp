@@ -29,14 +29,14 @@ void flush(const std::string& path, int (*synchronise)(int))
   if (!on_disk) throw RunError(fmt::format("cannot flush {} to disk: {}", path, reason(error)));
 }
 
-/// Renames unless `to` exists; 0 or an errno. Not every file system knows how to do that in one
-/// call; a second name for the file then does.
+/// Renames `from` unless `to` exists; returns 0 or an errno. If the file system cannot do this in
+/// one call (renameat2), adds a hard link and removes the old name.
 int rename_unless_taken(const std::string& from, const std::string& to)
 {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
   std::error_code ignored;
-  if (std::filesystem::is_directory(from, ignored)) {  // has no second name
+  if (std::filesystem::is_directory(from, ignored)) {  // folders cannot have hard links
     if (is_taken(to)) return EEXIST;
     return rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
   }
@@ -45,7 +45,7 @@ int rename_unless_taken(const std::string& from, const std::string& to)
   return 0;
 }
 
-/// True where the file `path` lies in `folder` or in a folder inside it.
+/// True if the file `path` lies in `folder` or in one of its subfolders.
 bool lies_in(const std::string& path, const std::string& folder)
 {
   std::error_code error;
@@ -93,7 +93,8 @@ bool same_file(const std::string& a, const std::string& b)
 bool is_device(const std::string& path)
 {
   std::error_code error;
-  for (const char* of_process : {"/dev/std", "/dev/fd/", "/proc/"})  // a file, where redirected
+  // Streams of this process; is_other() is false for one that is redirected to a file.
+  for (const char* of_process : {"/dev/std", "/dev/fd/", "/proc/"})
     if (path.starts_with(of_process)) return true;
   return std::filesystem::is_other(std::filesystem::status(path, error));
 }
@@ -142,7 +143,7 @@ std::string temporary_path(const std::string& path)
 
 namespace {
 
-/// Opens the file with this mode beside that to write and create it.
+/// Writes `content` to the file `path`, opened with the flag `mode` (O_TRUNC or O_APPEND).
 void write_with(int mode, const std::string& path, std::string_view content,
                 const std::string& name)
 {
@@ -205,7 +206,7 @@ void rename_to_new(const std::string& from, const std::string& to, const std::st
 
 void keep_as(const std::string& path, const std::string& second)
 {
-  // Two names of one file are not renamed to each other: the temporary one may be left.
+  // Renaming between two hard links of one file does nothing, so the temporary name may remain.
   const RemoveAtEnd temporary(temporary_path(second));
   const bool linked = link(path.c_str(), temporary.path().c_str()) == 0;
   rename_path(linked ? temporary.path() : path, second);

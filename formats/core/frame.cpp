@@ -60,7 +60,7 @@ template double mean_density<3>(const Grains&, std::optional<Species>);
 template bool have_one_density<2>(const Grains&);
 template bool have_one_density<3>(const Grains&);
 
-/// A sum over absent grains of random numbers that belong to their rows (SplitMix64).
+/// Sum of one pseudo-random number (SplitMix64) per absent grain, computed from its row.
 template <int D>
 std::uint64_t which_are_absent(const Frame<D>& frame)
 {
@@ -136,7 +136,7 @@ template <int D>
 Vector<D> Gravity<D>::mean(double last, std::int64_t steps, double step) const
 {
   if (!turns()) return start;
-  // Mean of vectors of one length, each turned by `angle` against the last (Dirichlet's kernel).
+  // Mean of vectors of equal length, each turned by `angle` from the one before (Dirichlet kernel).
   const double angle = slope_rate * step, half = angle / 2;
   const auto count = static_cast<double>(steps);
   return std::sin(count * half) / (count * std::sin(half)) * at(last - (count - 1) * step / 2);

@@ -11,9 +11,9 @@
 #include <vector>
 
 /// The data that simulator and analysis share, in D = 2 or 3 dimensions. Everything is in SI units.
-/// x points down the slope, y is normal to the base and points up, z goes across; the cell may be
-/// periodic along x and z. In two dimensions a density is in kg/m^2 and a stress in N/m, in three
-/// in kg/m^3 and Pa. The simulator knows two dimensions only.
+/// x points down the slope, y is normal to the base and points up, z points across the flow. The
+/// cell may be periodic along x and z. Units of density and stress are kg/m^2 and N/m in two
+/// dimensions, kg/m^3 and Pa in three. The simulator supports two dimensions only.
 namespace grseg {
 
 template <int D>
@@ -29,8 +29,8 @@ using Vec3 = Vector<3>;
 using Tensor2 = Tensor<2>;
 using Tensor3 = Tensor<3>;
 
-/// Mobile species are numbered in order of their nominal diameters, from 0; most runs have the two
-/// that have names here. Boundary grains belong to none.
+/// Number of a mobile species: 0 for the smallest nominal diameter, 1 for the next, and so on. Most
+/// runs have only the two species named here. Boundary grains belong to no species.
 enum class Species : std::int32_t { boundary = -1, small = 0, large = 1 };
 
 /// Constants of the grains during a run; entry g describes grain g in every frame.
@@ -38,29 +38,30 @@ struct Grains {
   std::vector<std::int32_t> id;
   std::vector<Species> species;
   std::vector<double> radius;       // m
-  std::vector<double> mass;         // kg; boundary grains have one, too, but it has no effect
-  std::vector<std::uint8_t> fixed;  // 1: moves only as prescribed, and is not part of phi
+  std::vector<double> mass;         // kg; the mass of a boundary grain has no effect
+  std::vector<std::uint8_t> fixed;  // 1: the grain moves only as prescribed, and phi excludes it
 
   std::size_t size() const { return radius.size(); }
 };
 
-/// True for a grain of the flow. Boundary grains are in the file, but not in phi.
+/// True for a grain of the flow. Boundary grains are in the file, but do not count in the
+/// composition phi.
 inline bool is_mobile(const Grains& grains, std::size_t grain)
 {
   return grains.fixed[grain] == 0 && grains.species[grain] != Species::boundary;
 }
 
-/// The cell. Where it is periodic, positions lie in [0, length).
+/// The simulation cell. Along a periodic direction positions lie in [0, length).
 struct Box {
-  double length_x = 0;  // m
-  double length_y = 0;  // m, only for viewers: nothing is periodic in y
+  double length_x = 0;  // length along the flow, m
+  double length_y = 0;  // height, m; used only by viewers, because y is never periodic
   bool periodic_x = true;
   int dimension = 2;
-  double length_z = 0;  // m; 0 in two dimensions
+  double length_z = 0;  // width across the flow, m; 0 in two dimensions
   bool periodic_z = false;
 };
 
-/// Area (m^2) or volume (m^3) of a grain: a disc or a sphere.
+/// Area of a disc (m^2) or volume of a sphere (m^3) of this radius (m).
 template <int D>
 double grain_volume(double radius)
 {
@@ -70,17 +71,17 @@ double grain_volume(double radius)
     return 4 * std::numbers::pi / 3 * radius * radius * radius;
 }
 
-/// Mass of the mobile grains over their area or volume, kg/m^2 or kg/m^3; of one species where it
-/// is given. 0 without grains.
+/// Mass of the mobile grains (of one species if `species` is given) divided by their area or
+/// volume, kg/m^2 or kg/m^3; 0 without grains.
 template <int D>
 double mean_density(const Grains& grains, std::optional<Species> species = std::nullopt);
 
-/// True where all mobile grains have one density, to the digits of archives (1e-5): shares of mass
-/// are then shares of area or volume.
+/// True if all mobile grains have one density, within 1e-5 (archives of other programs have few
+/// digits). Shares of mass then equal shares of area or volume.
 template <int D>
 bool have_one_density(const Grains& grains);
 
-/// Moment of inertia of a grain over its mass times the square of its radius: a disc or a sphere.
+/// Moment of inertia of a disc or sphere divided by (mass x radius^2).
 template <int D>
 inline constexpr double inertia_factor = D == 2 ? 0.5 : 0.4;
 
@@ -93,44 +94,44 @@ inline constexpr double inertia_factor = D == 2 ? 0.5 : 0.4;
 template <int D>
 struct ContactList {
   std::vector<std::int32_t> i, j;
-  std::vector<Vector<D>> force;   // N, impulse of the whole step divided by the step
-  std::vector<Vector<D>> branch;  // m
-  std::vector<double> gap;        // m, negative where the two overlap
+  std::vector<Vector<D>> force;   // impulse of the whole step divided by the step, N
+  std::vector<Vector<D>> branch;  // x_i - x_j, m
+  std::vector<double> gap;        // distance of the two surfaces, m; negative if they overlap
 
   std::size_t size() const { return i.size(); }
   void clear();
   void reserve(std::size_t contacts);
 };
 
-/// One step of the run, frozen. `time`, `position`, `branch` and `gap` belong to the middle of the
-/// step, at which contacts are detected; `velocity` and `angular_velocity` are those after the
-/// solve; `force` is m (v_after - v_before)/h, so that for every mobile grain
-/// sum of its contact forces + m g - force = 0 to round-off.
+/// One time step of the run. `time`, `position`, `branch` and `gap` are values at the middle of the
+/// step, when contacts are detected; `velocity` and `angular_velocity` are values after the contact
+/// forces were solved. `force` is m (v_after - v_before)/h with the step h, so that every mobile
+/// grain satisfies: sum of its contact forces + m g - force = 0 to round-off.
 ///
-/// In a run in which grains come and go (RunDescription::grains_come_and_go) a grain that is absent
-/// has NaN in position, velocity, spin and force; no contact names it.
+/// If grains enter and leave the run (RunDescription::grains_come_and_go), a grain that is absent
+/// has NaN in position, velocity, spin and force, and belongs to no contact.
 template <int D>
 struct Frame {
-  std::int64_t step = 0;  // time = (step + 1/2) h
-  double time = 0;        // s, 0 at the tilt
-  double part = 0;  // s, length of the step, or of its last part if it was taken in parts, which is
-                    // then the h of `force`; 0 where it was not read
+  std::int64_t step = 0;  // number of the step; time = (step + 1/2) h
+  double time = 0;        // middle of the step, s; 0 at the tilt (docs/glossary.md)
+  double part = 0;  // the h of `force`, s: length of the step, or of its last part if the simulator
+                    // divided the step; 0 if it was not read
   std::vector<Vector<D>> position;                 // m, wrapped into the cell
-  std::vector<std::array<std::int32_t, D>> image;  // periods to add to `position`
+  std::vector<std::array<std::int32_t, D>> image;  // number of periods to add to `position`
   std::vector<Vector<D>> velocity;                 // m/s
   std::vector<Spin<D>> angular_velocity;           // rad/s
-  std::vector<Vector<D>> force;                    // N; empty where an import had none
+  std::vector<Vector<D>> force;                    // N; empty if an imported archive had none
   ContactList<D> contacts;
 };
 
-/// The h in which `force` has changed the velocities; `step` s unless the frame says otherwise.
+/// Time (s) during which `force` changed the velocities: Frame::part, or `step` if that is 0.
 template <int D>
 double step_of_force(const Frame<D>& frame, double step)
 {
   return frame.part > 0 ? frame.part : step;
 }
 
-/// True where grain g is present in this frame.
+/// True if grain g is present in this frame.
 template <int D>
 bool is_present(const Frame<D>& frame, std::size_t g)
 {
@@ -146,24 +147,23 @@ std::size_t number_present(const Frame<D>& frame)
   return number;
 }
 
-/// True where grain g belongs to the flow and is present in this frame.
+/// True if grain g belongs to the flow and is present in this frame.
 template <int D>
 bool is_mobile(const Grains& grains, const Frame<D>& frame, std::size_t g)
 {
   return is_mobile(grains, g) && is_present(frame, g);
 }
 
-/// A number that tells which grains are absent in this frame: 0 where all are there, and the same
-/// for the same grains.
+/// Hash of the set of grains that are absent in this frame; 0 if all are present.
 template <int D>
 std::uint64_t which_are_absent(const Frame<D>& frame);
 
-/// Marks grain g as absent in a frame whose arrays have their sizes.
+/// Marks grain g as absent in a frame whose arrays already have one entry per grain.
 template <int D>
 void make_absent(Frame<D>& frame, std::size_t g);
 
-/// Where two grains touch: x_i - branch (r_i + gap/2)/(r_i + r_j + gap); at a wall the contact
-/// point is x_i - branch.
+/// Contact point of two grains, x_i - branch (r_i + gap/2)/(r_i + r_j + gap); at a wall
+/// x_i - branch.
 template <int D>
 Vector<D> contact_point(const Grains& grains, const Frame<D>& frame, std::size_t contact);
 
@@ -172,29 +172,30 @@ Vector<D> contact_point(const Grains& grains, const Frame<D>& frame, std::size_t
 template <int D>
 double share_of_first(const Grains& grains, const ContactList<D>& contacts, std::size_t contact);
 
-/// Gravity of a run on a slope that is fixed or becomes steeper at a constant rate from t = 0 on. A
-/// step is subject to gravity at its middle, which is the time of a frame. The slope turns about z.
+/// Gravity of a run whose slope is fixed or, from t = 0 on, steepens at a constant rate (turning
+/// about z). A time step uses gravity at the middle of the step, which is the time of the frame.
 template <int D>
 struct Gravity {
-  Vector<D> start = Vector<D>::Zero();  ///< m/s^2, at t = 0
-  double slope_rate = 0;                ///< rad/s
+  Vector<D> start = Vector<D>::Zero();  ///< gravity at t = 0, m/s^2
+  double slope_rate = 0;                ///< rad/s, rate at which the slope steepens
 
   Gravity() = default;
-  // Implicit: without a changing slope gravity is just a vector.
+  // Implicit conversion: gravity on a fixed slope is a vector.
   Gravity(const Vector<D>& constant) : start(constant) {}
   Gravity(const Vector<D>& at_first, double rate) : start(at_first), slope_rate(rate) {}
 
   bool turns() const { return slope_rate != 0; }
-  double norm() const { return start.norm(); }  // m/s^2, at any time
-  /// m/s^2, at `time` in s.
+  double norm() const { return start.norm(); }  // magnitude, m/s^2, the same at all times
+  /// Gravity (m/s^2) at `time` (s).
   Vector<D> at(double time) const;
-  /// The mean over `steps` >= 1 steps of length `step` (s), the last of which has its middle at
-  /// `last` (s), all after t = 0.
+  /// Mean gravity (m/s^2) over `steps` >= 1 consecutive steps of length `step` (s), all after
+  /// t = 0; `last` (s) is the middle of the last step.
   Vector<D> mean(double last, std::int64_t steps, double step) const;
 };
 
-/// Calls `work` with the number of dimensions, 2 or 3, as a constant, which chooses the templates
-/// that it uses: with_dimension(run.dimension(), [&](auto d) { Frame<d> frame; ... }).
+/// Calls `work` with the number of dimensions, 2 or 3, as a compile-time constant, so that `work`
+/// can use it as a template argument:
+/// with_dimension(run.dimension(), [&](auto d) { Frame<d> frame; ... }).
 template <class Work>
 decltype(auto) with_dimension(int dimension, const Work& work)
 {

@@ -27,8 +27,8 @@ std::string this_host()
   return name.data();
 }
 
-/// When the process began, in the system's ticks since it was booted: a number of a process is used
-/// again, together with this it is not. 0 where there is no such process.
+/// Start time of the process, in clock ticks since the system was booted; 0 if there is no such
+/// process. Systems reuse process numbers, but not together with the start time.
 unsigned long long start_of(long process)
 {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
@@ -38,20 +38,20 @@ unsigned long long start_of(long process)
   if (name_ends == std::string::npos) return 0;
   std::istringstream words(text.substr(name_ends + 1));
   std::string word;
-  for (int k = 0; k < 19; ++k) words >> word;  // fields 3 to 21 of proc(5)
+  for (int k = 0; k < 19; ++k) words >> word;  // skips fields 3 to 21 (proc(5))
   unsigned long long start = 0;
   words >> start;
   return start;
 }
 
-/// The process that a lock names.
+/// The process that a lock file names.
 struct Owner {
   std::string host;
   long process = 0;
   unsigned long long start = 0;
 
   static Owner self() { return {this_host(), getpid(), start_of(getpid())}; }
-  /// Empty where `file` does not hold one.
+  /// The owner that the lock file `file` names; empty if the file cannot be read or names none.
   static std::optional<Owner> in(const std::string& file)
   {
     std::ifstream text(file);
@@ -70,7 +70,7 @@ struct Owner {
   bool operator==(const Owner&) const = default;
 };
 
-/// True while `path` is still the name of the open `file`; its owner may have removed it meanwhile.
+/// True if `path` is still the name of the open `file`: its owner may have removed it meanwhile.
 bool is_name_of(const std::string& path, int file)
 {
   struct stat of_file {
@@ -83,7 +83,7 @@ void write_owner(int file)
 {
   const auto text = Owner::self().text();
   if (ftruncate(file, 0) != 0 || pwrite(file, text.data(), text.size(), 0) < 0)
-    return;  // a disk that is full does not hinder the lock: others do not learn who has it
+    return;  // on a full disk the lock still works; other processes just cannot name its owner
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::optional<Owner>& owner)
@@ -92,7 +92,8 @@ void write_owner(int file)
                                path, owner ? owner->sentence() : "another process"));
 }
 
-/// A message that leaves to the reader whether the writer that `file` stands for is alive.
+/// Throws a message for the case that nobody can tell whether the writer named in the lock file
+/// `file` is still running.
 [[noreturn]] void refuse_unless_removed(const std::string& path, const std::string& file,
                                         const std::optional<Owner>& owner)
 {
@@ -102,8 +103,8 @@ void write_owner(int file)
                   who, file));
 }
 
-/// Refuses the owner of `lock`, unless it has died; its lock is then removed. One process at a time
-/// looks and removes, so that none removes a lock taken after it looked.
+/// Removes `lock` if its owner has died; throws UsageError if not. One process at a time checks and
+/// removes, so that no process removes a lock that was taken after its check.
 void remove_dead_lock(const std::string& path, const std::string& lock)
 {
   const auto claim = lock + ".claim";
@@ -113,7 +114,7 @@ void remove_dead_lock(const std::string& path, const std::string& lock)
   close(file);
   const RemoveAtEnd claimed(claim);
   const auto owner = Owner::in(lock);
-  if (!owner && access(lock.c_str(), F_OK) != 0) return;  // its owner has ended meanwhile
+  if (!owner && access(lock.c_str(), F_OK) != 0) return;  // its owner has finished meanwhile
   if (!owner || !owner->has_died()) refuse_unless_removed(path, lock, owner);
   unlink(lock.c_str());
 }
@@ -138,11 +139,12 @@ OutputLock::OutputLock(const std::string& path, int (*lock)(int file)) : path_(p
 
 OutputLock::~OutputLock()
 {
-  if (is_name_of(path_, file_)) unlink(path_.c_str());  // before the lock is released
+  if (is_name_of(path_, file_)) unlink(path_.c_str());  // must precede close(), the unlocking
   close(file_);
 }
 
-/// False where the file of another process went away meanwhile: once more.
+/// Takes the lock; returns false if the lock file of another process vanished meanwhile, and the
+/// caller has to try again.
 bool OutputLock::take(const std::string& path, int (*lock)(int file))
 {
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -154,7 +156,7 @@ bool OutputLock::take(const std::string& path, int (*lock)(int file))
   if (file_ < 0) throw RunError(fmt::format("cannot create {}: {}", path_, reason(errno)));
   const int error = lock(file_);
   if (error == 0 && is_name_of(path_, file_)) return true;
-  if (has_no_locks(error) && created) return true;  // nobody else can have created it
+  if (has_no_locks(error) && created) return true;  // O_EXCL: only this process can have created it
   close(file_);
   if (error == EWOULDBLOCK) refuse(path, Owner::in(path_));
   if (has_no_locks(error))

@@ -5,21 +5,23 @@
 
 namespace grseg {
 
-/// Locks the open file `file` for this process without waiting; 0, EWOULDBLOCK where another
-/// process has it, or another errno.
+/// Locks the open file `file` for this process without waiting. Returns 0 on success, EWOULDBLOCK
+/// if another process has the lock, or another errno.
 int lock_file(int file);
 
-/// One writer per output: as long as this exists no other process can make one for the same `path`,
-/// on this computer and on others that share its folder. It is a lock on the file PATH.lock, which
-/// goes with it, so that it also works where the output's own library cannot lock. The system
-/// releases the lock of a process that dies; the file that it leaves behind hinders nobody.
+/// Lock that allows one writer per output. While an OutputLock exists, no other process can create
+/// one for the same `path`, on this computer or on others that share the folder. It locks the file
+/// PATH.lock, not the output, because the output's own library may be unable to lock. The
+/// destructor removes PATH.lock. The system releases the lock of a process that dies; the PATH.lock
+/// that such a process leaves behind does not block later writers.
 ///
-/// Where the file system has no locks, PATH.lock itself is the lock: it names the computer, the
-/// process and the time at which that began. It is taken over where that process has died on this
-/// computer; a lock from another computer must be removed by hand.
+/// On a file system without locks the existence of PATH.lock is the lock. The file names the
+/// computer, the process and its start time. If this process has died on this computer, the next
+/// writer removes the file. A lock from another computer must be removed by hand.
 class OutputLock {
  public:
-  /// UsageError naming the process that writes `path`; RunError where PATH.lock cannot be created.
+  /// Throws UsageError, which names the other process, if `path` is being written, and RunError if
+  /// PATH.lock cannot be created.
   explicit OutputLock(const std::string& path, int (*lock)(int file) = lock_file);
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;

@@ -10,7 +10,7 @@
 namespace grseg {
 namespace {
 
-/// Bytes of the character that `text` begins with; 0 where it is not UTF-8 or a control character.
+/// Length (bytes) of the first character of `text`; 0 for invalid UTF-8 and control characters.
 std::size_t character_size(std::string_view text)
 {
   const auto byte = [text](std::size_t k) {
@@ -25,7 +25,7 @@ std::size_t character_size(std::string_view text)
     if ((byte(k) & 0xc0u) != 0x80u) return 0;
     code = code << 6u | (byte(k) & 0x3fu);
   }
-  const unsigned least = size == 2 ? 0xa0 : size == 3 ? 0x800 : 0x10000;  // below 0xa0: controls
+  const unsigned least = size == 2 ? 0xa0 : size == 3 ? 0x800 : 0x10000;  // < 0xa0: controls
   const bool surrogate = code >= 0xd800 && code < 0xe000;
   return code >= least && code <= 0x10ffff && !surrogate ? size : 0;
 }
@@ -87,7 +87,7 @@ std::optional<double> parse_number(std::string_view text)
   if (text == "nan") return Limits::quiet_NaN();
   if (text == "inf") return Limits::infinity();
   if (text == "-inf") return -Limits::infinity();
-  // from_chars would take other words for NaN and infinity.
+  // Without this check from_chars would accept other spellings of NaN and infinity.
   if (text.find_first_not_of("+-.0123456789eE") != std::string_view::npos) return {};
   double number = 0;
   const auto* end = text.data() + text.size();

@@ -5,28 +5,28 @@
 #include <string>
 #include <string_view>
 
-/// Text from unknown writers (names of files, words and parameters inside them), made fit for a
-/// terminal or for a line of a table.
+/// Functions that make text from unknown sources (file names, words and parameters in files) safe
+/// to print on a terminal or in one line of a table.
 namespace grseg {
 
-/// The text with bytes as \xNN where they are no printable character of UTF-8: control characters
-/// (also newline, tab and U+0080 to U+009F) and anything that is not UTF-8. It is then one line.
+/// The text as one line, with \xNN for each byte that is not part of a printable UTF-8 character:
+/// control characters (also newline, tab and U+0080 to U+009F) and invalid UTF-8.
 std::string printable(std::string_view text);
 
-/// Each line of the text made printable; line ends remain.
+/// The text with each line made printable; line ends remain.
 std::string printable_lines(std::string_view text);
 
-/// Beginning of a word, made printable, with "..." where it goes on; for messages that quote it.
+/// First 60 bytes of a word, made printable, with "..." if it is longer; for quotes in messages.
 std::string excerpt(std::string_view text);
 
-/// Three bytes that some programs put before text in UTF-8.
+/// Three bytes that some programs write before UTF-8 text.
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// The text as it stands in XML, between tags or quotes.
+/// The text with & < > " escaped for XML, between tags or in quotes.
 std::string xml_escaped(const std::string& text);
 
-/// A decimal number as grseg writes it ("-1.5e-07", "nan", "inf", "-inf"); nothing where the text
-/// is anything else: blanks, a comma, hexadecimal digits, more than a double can hold.
+/// Number from decimal text as grseg writes it ("-1.5e-07", "nan", "inf", "-inf"). Empty for any
+/// other text: blanks, a comma, hexadecimal digits, or a number outside the range of double.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace grseg

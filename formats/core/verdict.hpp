@@ -7,12 +7,12 @@ namespace grseg {
 enum class Verdict {
   passed,
   failed,
-  undecided,  // the file does not tell: chance alone, or what is missing, allows more than the tolerance
-  waived,  // would have failed or be undecided, but the user accepts it (--accept-residual)
+  undecided,  // scatter or missing data alone allow a deviation beyond the tolerance
+  waived,     // failed or undecided, but accepted by the user (--accept-residual)
   skipped,
 };
 
-/// The word for it in reports.
+/// The word for a verdict in reports.
 constexpr const char* to_text(Verdict verdict)
 {
   constexpr const char* words[] = {"passed", "failed", "undecided", "waived", "skipped"};

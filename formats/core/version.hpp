@@ -5,7 +5,7 @@
 
 namespace grseg {
 
-/// "1.0.0"; with the git hash: "1.0.0 (1a2b3c4)".
+/// Version, "1.0.0", and version with git hash, "1.0.0 (1a2b3c4)".
 std::string version();
 std::string version_with_hash();
 

@@ -132,7 +132,7 @@ class H5md3dWriter : public RunWriter {
   File file_;
   std::array<double, 9> edges_;
   Dataset positions_, steps_, times_, box_, velocities_, forces_, images_, spins_;
-  /// Values of an observable in all frames of the run, and the dataset for the exported ones.
+  /// For each observable: its values in all frames of the run, and the dataset of exported values.
   std::vector<std::pair<std::vector<double>, Dataset>> observables_;
 };
 

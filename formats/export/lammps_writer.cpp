@@ -14,7 +14,7 @@
 namespace grseg {
 namespace {
 
-/// run.dump.gz -> run.contacts.dump.gz
+/// Path of the contacts' dump for the grains' dump `path`: run.dump.gz -> run.contacts.dump.gz.
 std::string contacts_beside(const std::string& path)
 {
   const std::string packed = path.ends_with(".gz") ? ".gz" : "";
@@ -23,7 +23,7 @@ std::string contacts_beside(const std::string& path)
   return plain.replace_extension(".contacts" + ending).string() + packed;
 }
 
-/// As LAMMPS itself, which simulates discs in a cell that is periodic along z.
+/// Lines BOX BOUNDS of a dump. For discs the cell is periodic along z, as in LAMMPS itself.
 std::string bounds_of(const ViewCell& cell, int dimension)
 {
   const auto word = [](bool periodic) { return periodic ? "pp" : "ff"; };
@@ -34,14 +34,14 @@ std::string bounds_of(const ViewCell& cell, int dimension)
   return text;
 }
 
-/// Type of a species: from 1 up for mobile species, and the last number for boundary grains.
+/// LAMMPS type of a species: 1, 2, ... for mobile species, then the boundary grains.
 int type_of(Species species, std::size_t mobile)
 {
   return species == Species::boundary ? static_cast<int>(mobile) + 1
                                       : static_cast<int>(species) + 1;
 }
 
-/// Options that tell grseg-import the species by type.
+/// Options of grseg-import that assign species to types.
 std::string species_options_for(const TrajectoryReader& run)
 {
   const auto& list = run.species();
@@ -61,7 +61,7 @@ std::string species_options_for(const TrajectoryReader& run)
   return options + fmt::format("--boundary {}", type(Species::boundary));
 }
 
-/// Options of grseg-import for what dumps cannot hold.
+/// Options of grseg-import for the facts that dumps cannot store.
 std::string import_options_for(const TrajectoryReader& run)
 {
   const Vec3 gravity =

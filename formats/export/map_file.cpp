@@ -21,7 +21,7 @@ std::string folder_of(const std::string& list)
   return list.substr(0, list.size() - std::string(".pvd").size());
 }
 
-/// As VTK writes texts: the numbers of their bytes, then 0.
+/// XML element of a text as VTK writes it: the numbers of its bytes, then 0.
 std::string text_array(const std::string& name, const std::string& text)
 {
   std::string codes;
@@ -31,13 +31,13 @@ std::string text_array(const std::string& name, const std::string& text)
       name, codes);
 }
 
-/// Numbers of the axes x, y, z that a map lies along; r is drawn along x.
+/// Index of a map axis in the VTK image: x 0, y 1, z 2; an axis r is drawn along x.
 std::size_t direction(const std::string& axis)
 {
   return axis == "z" ? 2 : axis == "y" ? 1 : 0;
 }
 
-/// The content of a .vti file: one window of a map.
+/// Content of a .vti file for one window of a map.
 std::string image_data(const MapTable& map, std::size_t window)
 {
   std::size_t cells[3] = {0, 0, 0};
@@ -123,7 +123,7 @@ void write_map_file(const Table& table, const OutputOptions& output,
   }
   if (map.windows.size() > 1)
     throw UsageError(fmt::format(
-        "a .vti file holds one window, and there are {}: take -o {}.pvd, or a longer --window",
+        "a .vti file stores one window, and there are {}: use -o {}.pvd or a longer --window",
         map.windows.size(), output.path.substr(0, output.path.size() - 4)));
   write_whole(output, image_data(map, 0));
 }

@@ -23,20 +23,20 @@ class MapFile {
     require(file_.valid());
   }
 
-  /// An attribute of the file.
+  /// Writes an attribute of the file.
   void attribute(const std::string& key, const std::string& text) const
   {
     write_attribute(Object(H5Oopen(file_, "/", H5P_DEFAULT)), key, text);
   }
 
-  /// The numbers along a dimension, which have its name.
+  /// Writes the dimension scale `name`: the coordinates along a dimension of this name.
   void scale(const std::string& name, const std::string& unit, const std::vector<double>& numbers)
   {
     const auto dataset = write(name, unit, {numbers.size()}, numbers);
     require(H5DSset_scale(dataset, name.c_str()) >= 0);
   }
 
-  /// A field over the dimensions of these names.
+  /// Writes a field over the dimensions with the names `dimensions`.
   void field(const std::string& name, const std::string& unit,
              const std::vector<std::string>& dimensions, const std::vector<double>& numbers)
   {
@@ -84,7 +84,7 @@ std::vector<double> of_windows(const MapTable& map, const Member& member)
   return numbers;
 }
 
-/// Name of a column's dataset. Since / would begin a group, "sum_ft/fn_SS" becomes
+/// Name of the dataset of a column. A slash would create a group, so "sum_ft/fn_SS" becomes
 /// "sum_ft_per_fn_SS".
 std::string dataset_name(const std::string& column)
 {

@@ -18,20 +18,22 @@ std::string unit_of(const std::string& column)
   return column.substr(open + 1, column.size() - open - 2);
 }
 
-/// "x" where two columns are "x0[m]" and "x1[m]".
+/// Name of the axis whose cell edges are in columns `low` and `low` + 1: "x" for "x0[m]", "x1[m]".
+/// Throws FormatError for other column names.
 std::string axis_of(const Table& table, Key low)
 {
   const auto &first = table.columns[low], &second = table.columns[low + 1];
   std::string name = first.substr(0, 1);
   if (first != name + "0[m]" || second != name + "1[m]")
     throw FormatError(
-        fmt::format("{}: no table of a map: columns {} and {} should be the edges of "
-                    "cells; make it with --bins xy",
+        fmt::format("{}: not the table of a map: columns {} and {} should be the edges of "
+                    "cells; make the table with --bins xy",
                     table.name, first, second));
   return name;
 }
 
-/// Edges of the cells that follow one another, `stride` rows apart, until they begin again.
+/// Edges of the cells along one axis (m). Neighbouring cells are `stride` rows apart; the axis ends
+/// where a cell does not begin at the end of the cell before.
 std::vector<double> edges_of(const Table& table, Key low, std::size_t stride)
 {
   const auto& rows = table.rows;
@@ -50,11 +52,11 @@ void require_grid(const Table& table, const MapTable& map)
     const auto& start = table.rows[row - row % map.cells()];
     if (cells[low_1] != first.edges[i] || cells[low_2] != second.edges[j] ||
         cells[begin] != start[begin] || cells[end] != start[end] || cells[frames] != start[frames])
-      throw FormatError(fmt::format("{}: row {} is not the cell that follows in a grid of {} by {}",
+      throw FormatError(fmt::format("{}: row {} is not the next cell of a grid of {} by {} cells",
                                     table.name, row + 1, first.cells(), second.cells()));
   }
   if (table.rows.size() % map.cells() != 0)
-    throw FormatError(fmt::format("{}: the last window lacks cells", table.name));
+    throw FormatError(fmt::format("{}: the last window has too few cells", table.name));
 }
 
 MapTable::Field field_of(const Table& table, std::size_t column, std::size_t rows)
@@ -77,7 +79,7 @@ std::vector<std::string> map_key_columns(const std::array<std::string, 2>& axes,
 MapTable map_table(const Table& table)
 {
   if (table.columns.size() < keys || table.rows.empty())
-    throw FormatError(table.name + ": no table of a map; make it with --bins xy");
+    throw FormatError(table.name + ": not the table of a map; make a map with --bins xy");
   MapTable map;
   map.axes[0] = {axis_of(table, low_1), edges_of(table, low_1, 1)};
   map.axes[1] = {axis_of(table, low_2), edges_of(table, low_2, map.axes[0].cells())};

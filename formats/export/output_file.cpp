@@ -23,10 +23,10 @@ constexpr std::streamsize buffer_size = 1 << 16;
 
 }  // namespace
 
-/// The stream that compresses, and its compressed bytes that are not yet written.
+/// The compression stream, and its compressed bytes that are not yet written.
 struct OutputFile::Packer {
   std::ostringstream packed;
-  io::filtering_ostream bytes;  // last: its destructor writes to `packed`
+  io::filtering_ostream bytes;  // declared last, because its destructor writes to `packed`
 };
 
 OutputFile::OutputFile(const std::string& path, bool overwrite,
@@ -36,10 +36,11 @@ OutputFile::OutputFile(const std::string& path, bool overwrite,
   write_file(output_.temporary(), "", name_);
   if (!path.ends_with(".gz")) return;
   packer_ = std::make_unique<Packer>();
-  io::zlib_params gzip(io::zlib::best_speed);  // digits of reals hardly pack better, only slower
-  gzip.window_bits = 16 + 15;  // zlib's deflateInit2: 16 more ask for the frame of gzip
+  io::zlib_params gzip(io::zlib::best_speed);  // higher levels: slower, and digits hardly shrink
+  gzip.window_bits = 16 + 15;  // window of 2^15 bytes; + 16: gzip header (zlib's deflateInit2)
   packer_->bytes.push(io::zlib_compressor(gzip), buffer_size);
   packer_->bytes.push(packer_->packed);
+  packer_->bytes.exceptions(std::ios_base::badbit | std::ios_base::failbit);
 }
 
 OutputFile::~OutputFile() = default;
@@ -104,7 +105,7 @@ void OutputFolder::require_replaceable() const
   std::error_code error;
   if (!fs::exists(fs::path(path_) / mark_, error))
     throw UsageError(fmt::format(
-        "{} already exists and holds no {}, so --overwrite does not replace it; choose another "
+        "{} already exists and contains no {}, so --overwrite does not replace it; choose another "
         "name",
         path_, mark_));
 }

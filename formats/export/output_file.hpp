@@ -10,19 +10,19 @@
 
 namespace grseg {
 
-/// A file that is written piece by piece and appears whole or not at all. It is gzip where its name
-/// ends in .gz, without a time in its header: the same content gives the same bytes.
+/// A file that is written piece by piece and appears whole or not at all. It is compressed by gzip
+/// if its name ends in .gz, without a time in its header: the same content gives the same bytes.
 class OutputFile {
  public:
-  /// UsageError where `path` cannot be what is made of `inputs` (check_output()), RunError where it
-  /// cannot be created.
+  /// Throws the errors of check_output() if `path` may not be the output of a program with these
+  /// `inputs`, RunError if the file cannot be created.
   OutputFile(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
   ~OutputFile();
 
-  /// RunError where the system refuses.
+  /// Throws RunError if the system fails.
   void write(std::string_view bytes);
-  /// Hands the last bytes to the system; RunError where it refuses. Of several files that
-  /// belong together all are closed before one is published.
+  /// Passes the last bytes to the system; throws RunError if that fails. If several files belong
+  /// together, close all of them before publishing the first.
   void close();
   void publish();
 
@@ -30,14 +30,14 @@ class OutputFile {
   struct Packer;
   std::string name_;
   Output output_;
-  std::unique_ptr<Packer> packer_;  // of a file that is compressed
+  std::unique_ptr<Packer> packer_;  // compression stream; null for a file without compression
 };
 
 /// A folder of files that appears whole or not at all.
 class OutputFolder {
  public:
-  /// `mark` is a file by which an earlier export is recognised: no other folder is ever replaced,
-  /// nor one that holds one of `inputs`, not even with `overwrite` (UsageError).
+  /// `mark` is a file by which the folder of an earlier export is recognised. Throws UsageError if
+  /// `path` is a folder without this file or contains one of `inputs`, even with `overwrite`.
   OutputFolder(std::string path, std::string mark, bool overwrite,
                const std::vector<std::string>& inputs);
   OutputFolder(const OutputFolder&) = delete;
@@ -46,8 +46,8 @@ class OutputFolder {
 
   void add_folder(const std::string& name) const;
   void add_file(const std::string& name, std::string_view content) const;
-  /// RunError where the system refuses, or where something of this name has appeared that may not
-  /// be replaced; a folder that was to be replaced is then back in place.
+  /// Throws RunError if the system fails, or if a file or folder of this name has appeared that may
+  /// not be replaced. A folder that should have been replaced is then back in place.
   void publish();
 
  private:

@@ -11,11 +11,11 @@
 namespace grseg {
 
 /// The cell for three-dimensional viewers, equal in all frames so that a film does not jitter.
-/// Along x it is the cell of the run. Along y, where nothing is periodic, it extends from y = 0 or
-/// the lowest grain to the height of the box or the highest grain of one frame. Along z it is the
-/// cell of the run or, for discs, one largest diameter about z = 0, where all centres lie.
+/// Along x it is the cell of the run. Along y, which is never periodic, it encloses the height of
+/// the box (from y = 0) and all grains of one frame. Along z it is the cell of the run; for discs
+/// its width is the largest diameter, centred at z = 0.
 struct ViewCell {
-  std::array<double, 3> low, high;  // m
+  std::array<double, 3> low, high;  // corners of the cell, m
   bool periodic_x, periodic_z;
 
   double length(std::size_t axis) const { return high[axis] - low[axis]; }
@@ -23,8 +23,8 @@ struct ViewCell {
 
 ViewCell view_cell(const TrajectoryReader& run, std::size_t frame);
 
-/// A vector with three components, as viewers need it: a vector of the plane has z = 0, and a spin
-/// in the plane is about z.
+/// Vector with three components, as viewers need: a two-dimensional vector gets z = 0, the spin of
+/// a disc is about z.
 template <int D>
 Vec3 in_space(const Vector<D>& v)
 {
@@ -51,12 +51,12 @@ std::vector<Vec3> all_in_space(const std::vector<Vector<D>>& vectors)
   return out;
 }
 
-/// The force of a contact along and across n = branch/|branch|: in two dimensions along
-/// t = (-n_y, n_x), in three the modulus.
+/// Components of a contact force: normal (along n = branch/|branch|) and tangential. In two
+/// dimensions the tangential component is along t = (-n_y, n_x), in three it is the modulus.
 template <int D>
 struct ContactParts {
   Vector<D> n;
-  double normal, tangential;  // N, on i; normal > 0 pushes i away from j
+  double normal, tangential;  // N, force on grain i; normal > 0 pushes i away from j
 };
 
 template <int D>

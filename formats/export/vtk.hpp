@@ -6,26 +6,26 @@
 #include <string>
 #include <vector>
 
-/// Files of VTK (VTK File Formats, "XML file formats").
+/// Writers of VTK files (VTK File Formats, "XML file formats").
 namespace grseg {
 
-/// Arrays of a file: each is described in XML, and the raw bytes of all, each preceded by its
-/// length in 8 bytes, follow at the end.
+/// Arrays of a VTK file. XML elements describe them; their raw bytes follow at the end of the file,
+/// each array preceded by its length (8 bytes).
 class VtkArrays {
  public:
-  /// Adds `count` numbers (float, double or std::int32_t); returns the line that describes them,
-  /// which names the number of components unless it is 0.
+  /// Adds an array of `count` numbers (float, double or std::int32_t). Returns its XML line, which
+  /// states the number of components unless that is 0.
   template <class Number>
   std::string add(const std::string& name, const Number* values, std::size_t count,
                   int components = 0);
-  /// The bytes that end the file.
+  /// End of the file: the raw bytes of all arrays, and the closing XML.
   std::string end() const;
 
  private:
   std::string bytes_;
 };
 
-/// A line of a .pvd file, and the file of these lines: times (s) and files.
+/// Line of a .pvd file for the VTK file of one time (s), and content of a .pvd file with `entries`.
 std::string vtk_entry(double time, const std::string& file);
 std::string vtk_collection(const std::string& entries);
 
@@ -34,8 +34,8 @@ class PolyData {
  public:
   enum class Cells { vertices, lines };
 
-  /// `points` holds three coordinates each. Cells are made of the points in their order: a vertex
-  /// per point, or a line per pair of points.
+  /// `points` lists three coordinates (m) per point. Cells use the points in order: a vertex per
+  /// point, or a line per pair of points. `time` is in s.
   PolyData(Cells cells, const std::vector<float>& points, double time);
 
   template <class Number>

@@ -39,7 +39,7 @@ std::vector<float> padded(const std::vector<Vector<D>>& vectors)
   return single(all_in_space<D>(vectors));
 }
 
-/// Entries of `all` (one per grain) for the grains that are present.
+/// Entries of `all`, which has one per grain, for the grains that are present in the frame.
 template <int D, class T>
 std::vector<T> of_present(const Frame<D>& frame, std::vector<T> all)
 {

@@ -42,18 +42,18 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("to", word_option(&s.format, words_of(formats)),
-      "vtp: PolyData with times, grains as points and contacts as lines; extxyz: extended XYZ; "
-      "lammps: dump custom and dump local; h5md3d: H5MD in three dimensions");
+      "format: vtp (VTK PolyData with times, grains as points, contacts as lines), extxyz "
+      "(extended XYZ), lammps (dump custom and dump local) or h5md3d (H5MD in three dimensions)");
   s.range.add_to(options);
   s.trust.add_to(options);
   add("output,o", po::value(&s.output)->value_name("NAME"),
-      "file to write (extxyz and lammps: compressed if it ends in .gz); for vtp a folder");
+      "file to write (extxyz and lammps: compressed if it ends in .gz), or with --to vtp a folder");
   add_overwrite_to(options, s.overwrite);
-  add("quiet", po::bool_switch(&s.quiet), "print no progress and no remarks");
+  add("quiet", po::bool_switch(&s.quiet), "print no progress and no remarks on standard error");
   return options;
 }
 
-/// All frames, or nothing: what `writer` has begun goes with it when a frame cannot be read.
+/// Writes all frames or nothing: if a frame cannot be read, `writer` removes its unfinished output.
 template <int D>
 void write_frames(const TrajectoryReader& run, const std::vector<std::size_t>& frames,
                   const Settings& s, RunWriter& writer)
@@ -84,10 +84,10 @@ void export_run(const Settings& s, const po::variables_map& values)
   if (s.quiet || again.empty()) return;
   if (with_dimension(run.dimension(), [&](auto d) { return run.gravity<d>().turns(); }))
     fmt::print(stderr,
-               "{}: the slope changes with time, which an archive cannot pass on to grseg-import\n",
+               "{}: grseg-import cannot read this back: an archive cannot store a changing slope\n",
                info.name);
   else
-    fmt::print(stderr, "{}: to turn it back into a run: {}\n", info.name, again);
+    fmt::print(stderr, "{}: to turn this archive back into a run: {}\n", info.name, again);
 }
 
 }  // namespace

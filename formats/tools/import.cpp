@@ -16,7 +16,7 @@ using namespace grseg;
 
 namespace {
 
-/// Examples of all formats, then what is particular to some.
+/// Examples of all formats, followed by the notes of some formats.
 std::string examples()
 {
   std::string commands, notes;
@@ -28,8 +28,8 @@ std::string examples()
                      notes);
 }
 
-/// The command line as typed, without the files that the proposed answers name by their options,
-/// followed by these answers.
+/// The command line as typed, but without files that were named without an option, followed by the
+/// options that answer the open questions (they name these files again).
 std::string proposed_command(int argc, char** argv, const ImportSettings& settings,
                              const OpenQuestions& open)
 {
@@ -45,7 +45,7 @@ void check(const ImportSettings& settings)
 {
   if (settings.storage.compression < 0 || settings.storage.compression > 9)
     throw UsageError("--compression is a deflate level from 0 (none) to 9");
-  const Waivers waivers(settings.accept_residual);  // for its complaints before work begins
+  const Waivers waivers(settings.accept_residual);  // its constructor checks the option
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ libdeflate_decompressor* decompressor_of_thread()
   return one.get();
 }
 
-/// Numbers first .. first + count - 1 of `all`. Shuffled, all first bytes come first, then all
-/// second bytes, and so on.
+/// Copies numbers first .. first + count - 1 of the `all` numbers in `bytes`. In shuffled data the
+/// first bytes of all numbers come first, then all second bytes, and so on.
 template <class Stored, class Bits, class Out>
 void copy_numbers(const std::uint8_t* bytes, std::size_t all, bool shuffled, std::size_t first,
                   std::size_t count, Out* out)
@@ -77,8 +77,8 @@ void Chunk::inflate() const
   }
   if (!whole)
     throw FormatError(fmt::format(
-        "{}: chunk {}, from row {}, does not decompress to its {} bytes; the file is damaged: take "
-        "a copy that is whole",
+        "{}: chunk {}, from row {}, does not decompress to its {} bytes; the file is damaged; use "
+        "an intact copy",
         layout_->dataset, number_, number_ * layout_->chunk_rows, bytes));
 }
 

@@ -9,12 +9,12 @@
 
 namespace grseg {
 
-/// How the chunks of a dataset are stored, each of which holds rows of `row_values` numbers: HDF5's
-/// filters shuffle (0 or 1 times) and deflate, in this order.
+/// Storage of the chunks of a compressed dataset. A chunk is `chunk_rows` rows of `row_values`
+/// numbers each, passed through HDF5's filters shuffle (if `shuffled`) and then deflate.
 struct ChunkLayout {
   enum class Number { float64, float32, int32 };
 
-  std::string dataset;  // its file and path
+  std::string dataset;  // file and path of the dataset, for messages
   std::size_t chunk_rows = 1, row_values = 1;
   Number number = Number::float64;
   bool shuffled = false;
@@ -24,8 +24,8 @@ struct ChunkLayout {
   std::size_t chunk_bytes() const { return chunk_values() * number_bytes(); }
 };
 
-/// The bytes of a chunk as the file holds them, and which of its filters were left out (a bit for
-/// each, HDF5's filter mask). It is decompressed once, by the thread that needs it first.
+/// A chunk: its bytes as stored in the file, and HDF5's filter mask, in which a set bit marks a
+/// filter that was not applied. The first thread that needs the chunk decompresses it, once.
 class Chunk {
  public:
   using Bytes = std::unique_ptr<std::uint8_t[]>;
@@ -34,8 +34,8 @@ class Chunk {
         std::size_t size, std::uint32_t filters_left_out);
 
   std::size_t number() const { return number_; }
-  /// Copies rows [first, first + count) of the chunk, as double or std::int32_t. FormatError naming
-  /// the dataset and the chunk where it does not decompress to its size.
+  /// Copies rows [first, first + count) of the chunk, as double or std::int32_t. Throws
+  /// FormatError, which names dataset and chunk, if its decompressed size is wrong.
   void copy(std::size_t first, std::size_t count, void* out) const;
 
  private:
@@ -50,12 +50,12 @@ class Chunk {
   mutable std::once_flag inflated_;
 };
 
-/// Rows on their way to memory: their chunk has been read. Several threads can unpack at once, also
-/// rows of the same chunk.
+/// Rows whose chunk has been read but not yet decompressed. Several threads can unpack rows at
+/// once, also rows of the same chunk.
 struct PackedRows {
   std::shared_ptr<const Chunk> chunk;
-  std::size_t first = 0, count = 0;  // in the chunk
-  void* out = nullptr;
+  std::size_t first = 0, count = 0;  // first row in the chunk, and number of rows
+  void* out = nullptr;               // destination of the numbers
 
   void unpack() const { chunk->copy(first, count, out); }
 };

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#define XXH_STATIC_LINKING_ONLY  // the state on the stack
+#define XXH_STATIC_LINKING_ONLY  // declares XXH3_state_t completely, so that it can be a member
 #include <xxhash.h>
 #if __has_include(<xxh_x86dispatch.h>) && !defined(XXH_INLINE_ALL)
-#include <xxh_x86dispatch.h>  // the widest vectors that the processor has: twice as fast
+#include <xxh_x86dispatch.h>  // uses the widest vectors of the processor: twice as fast
 #endif
 
 namespace grseg {

@@ -10,21 +10,21 @@
 #include <type_traits>
 #include <vector>
 
-/// Digests of what a trajectory holds, all xxh3 (64 bit) of bytes in little endian. They reveal
-/// damage; they are no proof against somebody who means to deceive.
+/// Digests of the content of a trajectory: xxh3 (64 bit) of bytes in little endian. They reveal
+/// damage, but not deliberate forgery.
 namespace grseg {
 
-/// Digest of a frame as it is stored, chained with the digest of the frame before (0 if it is
-/// first). The bytes are, in this order: step, time, position, image, velocity, angular_velocity,
-/// force, then i, j, force, branch, gap of the contacts. With `float32` the floating-point arrays
-/// (not `time`) are rounded to 4 bytes first, as in the file.
+/// Digest of a frame as it is stored, chained with `before`, the digest of the previous frame (0
+/// for the first). The bytes are, in this order: step, time, position, image, velocity,
+/// angular_velocity, force, then i, j, force, branch, gap of the contacts. With `float32` the
+/// floating-point arrays (not `time`) are first rounded to 4 bytes, as in the file.
 template <int D>
 std::uint64_t frame_digest(const Frame<D>& frame, std::uint64_t before, bool float32);
 
-/// The parts of a frame that have digests of their own, the columns of /grseg/field_digest: a
-/// reader that takes some of them verifies those.
+/// Parts of a frame that have their own digests: the columns of /grseg/field_digest. A reader of
+/// only some parts can thus verify these.
 enum class Field {
-  place,  // step, time, its rows among the contacts, and the digest of the frame in the chain
+  place,  // step, time, rows of the frame's contacts, and frame_digest (FramePlace)
   position,
   image,
   velocity,
@@ -40,7 +40,7 @@ enum class Field {
 constexpr std::size_t number_of_fields = 12;
 using FieldDigests = std::array<std::uint64_t, number_of_fields>;
 
-/// use(field, array) for the arrays of a frame, in the order of frame_digest.
+/// Calls use(field, array) for each array of a frame, in the order of frame_digest().
 template <class SomeFrame, class Use>
 void for_each_array(SomeFrame&& frame, const Use& use)
 {
@@ -66,17 +66,17 @@ inline bool holds_reals(Field field)
   return field != Field::image && field != Field::contact_i && field != Field::contact_j;
 }
 
-/// Where a frame stands: Field::place.
+/// Place of a frame in the run (Field::place).
 struct FramePlace {
   std::int64_t step = 0;
-  double time = 0;                   // s
-  std::uint64_t begin = 0, end = 0;  // rows of its contacts
-  std::uint64_t chain = 0;           // frame_digest
+  double time = 0;                   // time of the frame, s
+  std::uint64_t begin = 0, end = 0;  // rows [begin, end) of its contacts
+  std::uint64_t chain = 0;           // frame_digest() of the frame
 };
 
-/// Digest of a field of frame number `index`: of the number 16 index + field, then the bytes of the
-/// field, floating-point numbers as in frame_digest. A field that moved to another frame or dataset
-/// has another digest. Not for `place` and `observables`.
+/// Digest of a field of frame number `index`, over the number 16 index + field and then the bytes
+/// of the field, with floating-point numbers as in frame_digest(). The number changes the digest of
+/// a field that moved to another frame or dataset. Not for `place` and `observables`.
 template <int D>
 std::uint64_t field_digest(Field field, std::uint64_t index, const Frame<D>& frame, bool float32);
 /// Digest of Field::place.
@@ -84,10 +84,10 @@ std::uint64_t field_digest(std::uint64_t index, const FramePlace& place);
 /// Digest of Field::observables: one value per observable, in the alphabetical order of names.
 std::uint64_t field_digest(std::uint64_t index, const std::vector<double>& observables);
 
-/// Digest of any bytes, chained with the digest of the bytes before.
+/// Digest of any bytes, chained with `before`, the digest of the preceding bytes.
 std::uint64_t chain_digest(const void* data, std::size_t bytes, std::uint64_t before);
 
-/// Chains the digest of everything that is added to it, sizes in bytes included.
+/// Digest of a sequence of values: each add() chains the size in bytes and then the value.
 class Digester {
  public:
   void add(std::string_view text) { add(text.data(), text.size()); }
@@ -113,7 +113,7 @@ class Digester {
   std::uint64_t digest_ = 0;
 };
 
-/// 16 hexadecimal digits.
+/// A digest as 16 hexadecimal digits.
 std::string format_digest(std::uint64_t digest);
 
 }  // namespace grseg

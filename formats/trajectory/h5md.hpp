@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-/// The parts common to all H5MD 1.1 files (h5md.nongnu.org). RunError where the file cannot be
-/// written.
+/// Writers of the parts that all H5MD 1.1 files have (h5md.nongnu.org). All throw RunError if the
+/// file cannot be written.
 namespace grseg::h5md {
 
-/// /h5md: version, author, creator, and module units of system SI.
+/// Writes /h5md: version, author, creator, and the module "units" with system SI.
 void write_root(hid_t file);
 
-/// /particles/NAME/box with its `boundary`, one word per dimension.
+/// Writes /particles/NAME/box; `boundary` has one word per dimension, "periodic" or "none".
 void write_box(hid_t file, const std::string& particles, const std::vector<std::string>& boundary);
 
-/// Links the step and time of the element `of` into `element` (hard links), as H5MD demands.
+/// Adds hard links to step and time of the element `of` to the element `element`, as H5MD demands.
 void link_times(hid_t file, const std::string& of, const std::string& element);
 
 }  // namespace grseg::h5md

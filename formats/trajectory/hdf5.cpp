@@ -34,25 +34,25 @@ void check_written(herr_t status, const std::string& what)
   if (status < 0) throw RunError(fmt::format("cannot write {}: {}", what, reason_of_failure()));
 }
 
-// Largest content of a file over its own size: deflate packs at most 1032 : 1, and small contents
-// do not matter.
+// Largest accepted ratio of uncompressed to stored size (deflate reaches at most 1032 : 1), and the
+// uncompressed size below which any ratio is accepted.
 constexpr hsize_t most_packing = 1100;
 constexpr hsize_t small = 16 << 20;  // bytes
 
-// Largest number of attempts to read a structure whose checksum is wrong, while a writer may be
-// about to complete it. HDF5 waits 1 ns after the first and twice as long after each: 17 ms in all.
-// Its default, 100, waits for ever where the structure is damaged.
+// Largest number of attempts to read a structure whose checksum is wrong: a writer may be about to
+// complete it. HDF5 waits 1 ns after the first attempt and doubles the wait each time: 17 ms in
+// all. With its default of 100 attempts HDF5 would wait for ever if the structure is damaged.
 constexpr unsigned most_attempts = 24;
 
-/// Creates the groups that `path` lies in.
+/// Creates all groups above `path`.
 void make_parents(hid_t file, const std::string& path)
 {
   const auto slash = path.rfind('/');
   if (slash != std::string::npos && slash > 0) make_group(file, path.substr(0, slash));
 }
 
-/// True where the superblock (HDF5 File Format Specification, II.A) says that a writer holds the
-/// file open in SWMR mode, or was killed while it did.
+/// True if, according to the superblock (HDF5 File Format Specification, II.A), a writer has the
+/// file open in SWMR mode, or was killed in that state.
 bool has_swmr_writer(const std::string& path)
 {
   constexpr char signature[] = "\x89HDF\r\n\x1a\n";
@@ -64,7 +64,7 @@ bool has_swmr_writer(const std::string& path)
          (bytes[flags] & write_access) != 0 && (bytes[flags] & swmr_access) != 0;
 }
 
-/// A file that does not open is damaged, or a running simulation holds HDF5's lock on it.
+/// Reason why a file does not open: it is damaged, or a running simulation has HDF5's lock on it.
 std::string why_it_does_not_open(const std::string& path)
 {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -74,7 +74,7 @@ std::string why_it_does_not_open(const std::string& path)
                 : "is not an HDF5 file, or is truncated or damaged";
 }
 
-/// The product, or the largest number where that is too large.
+/// The product of two numbers; the largest number if the product overflows.
 hsize_t product(hsize_t a, hsize_t b)
 {
   constexpr auto most = std::numeric_limits<hsize_t>::max();
@@ -177,7 +177,7 @@ Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
     H5Pset_shuffle(create);
     H5Pset_deflate(create, static_cast<unsigned>(storage.compression));
   }
-  H5Pset_obj_track_times(create, 0);  // the same run gives the same bytes
+  H5Pset_obj_track_times(create, 0);  // no creation time: the same run gives the same bytes
   make_parents(parent, path);
   return opened<Dataset>(
       H5Dcreate2(parent, path.c_str(), type, space, H5P_DEFAULT, create, H5P_DEFAULT), path);
@@ -231,9 +231,9 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
   check_storage();
   const Type type(H5Dget_type(dataset_));
   if (H5Tget_class(type) != kind)
-    fail("does not hold the right kind of values: the file is damaged, or of another kind");
+    fail("does not contain the right kind of values: the file is damaged, or of another kind");
   if (kind == H5T_STRING ? H5Tis_variable_str(type) > 0 : !is_usual_number(type))
-    fail("has values of an unusual type, which is not read; is the file damaged?");
+    fail("has values of a type that grseg does not read; is the file damaged?");
 
   const Space space(H5Dget_space(dataset_));
   if (H5Sget_simple_extent_ndims(space) != rank)
@@ -245,7 +245,8 @@ CheckedDataset::CheckedDataset(hid_t parent, const std::string& path, H5T_class_
   require_possible(rank == 0 ? 1 : std::min<hsize_t>(dims_[0], 1));
 }
 
-/// Where the values are, before anything else is asked: a virtual dataset would open other files.
+/// Checks storage and filters. Must come before all other checks, because any access to a virtual
+/// dataset would open other files.
 void CheckedDataset::check_storage()
 {
   const Properties create(H5Dget_create_plist(dataset_));
@@ -345,8 +346,8 @@ std::vector<std::string> names_in(hid_t parent, const std::string& path)
     static_cast<std::vector<std::string>*>(out)->emplace_back(name);
     return 0;
   };
-  // In an order of its own: to sort, HDF5 1.10 makes a list first, and where the file is damaged it
-  // frees entries of it that it has not filled.
+  // H5_ITER_NATIVE, sorted afterwards: to visit links in order, HDF5 1.10 first makes a list of
+  // them, and if the file is damaged it frees entries of the list that it has not filled.
   H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &names);
   std::sort(names.begin(), names.end());
   return names;
@@ -354,7 +355,7 @@ std::vector<std::string> names_in(hid_t parent, const std::string& path)
 
 namespace {
 
-/// The library passes an errno on only as part of a text.
+/// Finds the errno in an entry of HDF5's error stack, which contains it only as part of a text.
 herr_t find_errno(unsigned, const H5E_error2_t* entry, void* found)
 {
   const char* place = entry->desc == nullptr ? nullptr : std::strstr(entry->desc, "errno = ");

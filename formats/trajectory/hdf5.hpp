@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Later versions of HDF5 keep the functions of 1.10, but under other names unless this is said.
-// Every file includes <hdf5.h> through this header.
+// Makes later versions of HDF5 offer the functions of 1.10 under the names of 1.10. Every source
+// file must therefore include <hdf5.h> through this header.
 #define H5_USE_110_API
 #include <hdf5.h>
 
@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-/// A thin layer over the HDF5 C library: identifiers close themselves, and a failure becomes one
-/// sentence with the file and the path inside it.
+/// Thin C++ layer over the HDF5 C library: identifiers close themselves, and a failure becomes an
+/// exception whose sentence names the file and the path inside it.
 namespace grseg::hdf5 {
 
-/// Owns one HDF5 identifier and closes it with the call of its kind.
+/// Owner of one HDF5 identifier, which it closes with the function `close`.
 template <herr_t (*close)(hid_t)>
 class Handle {
  public:
@@ -33,16 +33,15 @@ class Handle {
   }
   operator hid_t() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  /// Hands over the identifier, to close it where the result of that matters.
+  /// Returns the identifier and gives up its ownership, so that the caller can check its closing.
   hid_t release() { return std::exchange(id_, H5I_INVALID_HID); }
 
  private:
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// Writes what is left and closes a file; below 0 where it cannot be written. The file then stays
-/// open until the program ends: HDF5 2.2 aborts when a file is closed whose data it could not
-/// write.
+/// Flushes and closes a file; returns a negative number if it cannot be written. The file then
+/// stays open until the program ends, because HDF5 2.2 aborts on closing unwritten data.
 herr_t close_file(hid_t file);
 
 using File = Handle<close_file>;
@@ -54,57 +53,59 @@ using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
 using Attribute = Handle<H5Aclose>;
 
-/// Turns off the library's own error messages, its closing of files at exit, which crashes on a
-/// file that could not be written (1.10.8; handles close theirs), and links that lead out of a
-/// file. Whoever opens a file calls it before any other function of the library.
+/// Turns off three features of the library: its error messages, links to other files, and the
+/// closing of files at exit, which crashes for a file that could not be written (1.10.8; handles
+/// close their files). Must be called before any other function of the library.
 void silence();
 
-/// How files are written: in the format of HDF5 1.10, whose metadata carry checksums.
+/// Access settings for writing files in the format of HDF5 1.10, whose metadata have checksums.
 Properties newest_format();
 
-/// Settings for a new file whose root has no time of day: the same content gives the same bytes.
+/// Settings for a new file whose root has no creation time: the same content gives the same bytes.
 Properties without_time();
 
-/// True where the file begins with HDF5's signature.
+/// True if the file begins with HDF5's signature.
 bool is_hdf5(const std::string& path);
 
-/// Opens a file that anybody may have made, for reading: UsageError where it is missing or not a
-/// regular file, FormatError where HDF5 cannot open it. A file that a running (or killed) writer
-/// holds open in HDF5's SWMR mode can be read, too. `access`: further settings, changed.
+/// Opens an untrusted file for reading, with the further settings `access`. Throws UsageError if it
+/// is missing or not a regular file, FormatError if HDF5 cannot open it. Also opens a file that a
+/// running or killed writer has open in HDF5's SWMR mode (single writer, multiple readers).
 File open_for_reading(const std::string& path, Properties access = Properties());
 
-/// Text of fixed length, UTF-8.
+/// HDF5 type of a UTF-8 text of fixed length (bytes).
 Type string_type(std::size_t length);
 /// Dataspace of a dataset or attribute of this shape; an empty shape makes a scalar.
 Space space_of(const std::vector<hsize_t>& shape);
 
-/// How a growing dataset is stored.
+/// Storage of a growing dataset.
 struct Storage {
-  hsize_t chunk_rows = 1;
-  int compression = 0;  // deflate level, with shuffle; 0: none
+  hsize_t chunk_rows = 1;  // rows per chunk
+  int compression = 0;     // deflate level, with shuffle; 0: none
 };
 
-/// Creates a group and its parents, without the time of day, so that the same run gives the same
-/// bytes. RunError on failure.
+/// Creates a group and its parents, without creation time, so that the same run gives the same
+/// bytes. Throws RunError on failure.
 Group make_group(hid_t file, const std::string& path);
 
-/// A dataset whose first dimension grows, `shape` being the others. RunError on failure.
+/// Creates a dataset whose first dimension grows; `shape` lists the other dimensions. Throws
+/// RunError on failure.
 Dataset create_growing(hid_t parent, const std::string& path, hid_t type,
                        const std::vector<hsize_t>& shape, const Storage& storage);
-/// A dataset of fixed shape with its content; an empty `shape` makes a scalar. RunError on failure.
+/// Writes a new dataset of fixed shape (a scalar if `shape` is empty). Throws RunError on failure.
 void write_fixed(hid_t parent, const std::string& path, hid_t file_type, hid_t memory_type,
                  const std::vector<hsize_t>& shape, const void* data);
-/// Replaces all values of a dataset of fixed shape that is there. RunError on failure.
+/// Replaces all values of an existing dataset of fixed shape. Throws RunError on failure.
 void overwrite(hid_t parent, const std::string& path, hid_t memory_type, const void* data);
-/// Grows `dataset` by `rows` rows and writes them. RunError naming `what` on failure.
+/// Extends `dataset` by `rows` rows and writes them. Throws RunError naming `what` on failure.
 void append_rows(hid_t dataset, hid_t memory_type, hsize_t rows, const void* data,
                  const std::string& what);
 
-/// A dataset opened for reading and checked before anything is read: FormatError, naming `file` and
-/// the path, unless it exists, holds usual numbers of class `kind` (H5T_INTEGER or H5T_FLOAT, or
-/// H5T_STRING of fixed length), has `rank` dimensions, and uses only plain storage and the filters
-/// deflate, shuffle and fletcher32. What is read must be possible for a file of this size, or it is
-/// refused before memory is allocated.
+/// A dataset that is opened for reading and checked before anything is read. All functions throw
+/// FormatError, which names `file` and the path. The constructor does so unless the dataset exists,
+/// contains usual numbers (is_usual_number()) of class `kind` (H5T_INTEGER or H5T_FLOAT) or texts
+/// of fixed length (H5T_STRING), has `rank` dimensions, is stored in the file itself, and uses only
+/// the filters deflate, shuffle and fletcher32. A size that is impossible for the size of the file
+/// is refused before memory is allocated.
 class CheckedDataset {
  public:
   CheckedDataset() = default;
@@ -113,16 +114,16 @@ class CheckedDataset {
 
   const std::vector<hsize_t>& dims() const { return dims_; }
   const std::string& path() const { return path_; }
-  /// With the name of the file before it.
+  /// Path of the dataset with the name of the file before it.
   std::string full_path() const { return file_ + ": " + path_; }
   hid_t id() const { return dataset_; }
   bool stores_float32() const { return H5Tget_size(Type(H5Dget_type(dataset_))) == 4; }
 
-  /// FormatError unless dimension `axis` has `size` entries (or, at_least, no fewer).
+  /// Throws FormatError unless dimension `axis` has `size` entries (with `at_least`: or more).
   void require(std::size_t axis, hsize_t size, bool at_least = false) const;
-  /// FormatError unless `rows` rows can be in a file of this size.
+  /// Throws FormatError unless `rows` rows are possible in a file of this size.
   void require_possible(hsize_t rows) const;
-  /// Rows [first, first + count) of the first dimension, all of the others.
+  /// Reads rows [first, first + count) of the first dimension, with all entries of the others.
   void read_rows(hid_t memory_type, hsize_t first, hsize_t count, void* data) const;
   void read_all(hid_t memory_type, void* data) const;
 
@@ -133,25 +134,25 @@ class CheckedDataset {
 
   Dataset dataset_;
   std::vector<hsize_t> dims_;
-  hsize_t row_bytes_ = 0;   // of a row, as stored
-  hsize_t most_bytes_ = 0;  // that a file of this size can hold
+  hsize_t row_bytes_ = 0;   // bytes of a row, uncompressed
+  hsize_t most_bytes_ = 0;  // largest possible uncompressed size in a file of this size, bytes
   std::string path_, file_;
 };
 
-/// True where the type is a number that processors have: an integer of 1 to 8 bytes, or IEEE single
-/// or double precision. A damaged description of a type makes other numbers of the same bytes.
+/// True for number types that processors have: integers of 1, 2, 4 or 8 bytes, and IEEE single and
+/// double precision. A damaged type description could turn the same bytes into other numbers.
 bool is_usual_number(hid_t type);
 
-/// Size of the file in which an object lies, bytes.
+/// Size (bytes) of the file that contains an object.
 hsize_t size_of_file(hid_t object);
 
-/// True where `path` leads from `parent` to something.
+/// True if a link `path` exists below `parent`.
 bool exists(hid_t parent, const std::string& path);
-/// The names linked in a group, in alphabetical order.
+/// Names of the links in a group, in alphabetical order; none if the group does not exist.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);
 
-/// Why the last call of the library failed, as the system told it ("No space left on device"),
-/// where the library knows; to be asked before the next call.
+/// The system's reason why the last call of the library failed ("No space left on device"), if the
+/// library knows it. Valid until the next call of the library.
 std::string reason_of_failure();
 
 }  // namespace grseg::hdf5

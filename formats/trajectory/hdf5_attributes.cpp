@@ -21,7 +21,7 @@ void write_attribute(hid_t object, const std::string& name, hid_t type,
     throw RunError(fmt::format("cannot write attribute {}: {}", name, reason_of_failure()));
 }
 
-constexpr hssize_t most_in_attribute = 4096;  // entries, or bytes of a text of fixed length
+constexpr hssize_t most_in_attribute = 4096;  // numbers, or bytes of a text of fixed length
 
 Attribute attribute_of(hid_t parent, const std::string& path, const std::string& name)
 {
@@ -82,8 +82,8 @@ std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
   const auto count = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute)));
   if (!is_usual_number(type) || count < 0 || count > most_in_attribute)
     throw FormatError(
-        fmt::format("{}: '{}' of {} should hold numbers of a usual type; is the file damaged?",
-                    file, name, path));
+        fmt::format("{}: '{}' of {} should be numbers of a usual type; is the file damaged?", file,
+                    name, path));
   std::vector<double> numbers(static_cast<std::size_t>(count));
   if (count > 0 && H5Aread(attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0)
     throw FormatError(
@@ -100,7 +100,7 @@ std::string text_in_attribute(hid_t parent, const std::string& path, const std::
   const bool one = H5Sget_simple_extent_npoints(Space(H5Aget_space(attribute))) == 1;
   if (!one || H5Tget_class(type) != H5T_STRING || H5Tget_size(type) > most_in_attribute)
     throw FormatError(
-        fmt::format("{}: '{}' of {} should hold a text; is the file damaged?", file, name, path));
+        fmt::format("{}: '{}' of {} should be a text; is the file damaged?", file, name, path));
   std::string text(H5Tget_size(type), '\0');
   char* grown = nullptr;
   const bool variable = H5Tis_variable_str(type) > 0;
@@ -112,7 +112,7 @@ std::string text_in_attribute(hid_t parent, const std::string& path, const std::
     text = grown;
     H5free_memory(grown);
   }
-  return text.substr(0, text.find('\0'));  // up to the padding
+  return text.substr(0, text.find('\0'));  // removes the padding
 }
 
 }  // namespace grseg::hdf5

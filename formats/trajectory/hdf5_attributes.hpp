@@ -8,17 +8,17 @@
 
 namespace grseg::hdf5 {
 
-/// RunError where the attribute cannot be written.
+/// Writes an attribute of `object`. Throws RunError if the attribute cannot be written.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
 
-/// The texts (at most 3 of at most 64 bytes) of an attribute; empty where it is absent or of
-/// another kind.
+/// The texts of an attribute, at most 3 of at most 64 bytes each; empty if the attribute is absent,
+/// larger or of another kind.
 std::vector<std::string> read_texts(hid_t object, const std::string& name);
 
-/// Content of the attribute `name` of the object at `path`; empty where it is absent. FormatError
-/// naming `file` where it is of another kind or longer than 4096 entries.
+/// Content of the attribute `name` of the object at `path`; empty if it is absent. Throws
+/// FormatError, which names `file`, if it is of another kind or longer than 4096 entries.
 std::vector<double> numbers_in_attribute(hid_t parent, const std::string& path,
                                          const std::string& name, const std::string& file);
 std::string text_in_attribute(hid_t parent, const std::string& path, const std::string& name,

@@ -12,30 +12,31 @@
 #include <string_view>
 #include <vector>
 
-/// The table of formats/README.md, by which a trajectory file is created, written, read and
-/// checked.
+/// The table of datasets in formats/README.md, from which trajectory files are created, written,
+/// read and checked.
 namespace grseg {
 
-/// Numbers of a dataset; `real` is float64, or float32 where the run is stored so.
+/// Number type of a dataset; `real` is float64 or, in a run stored in single precision, float32.
 enum class Number { i32, i64, u8, u64, f64, real };
 
-/// HDF5 type of these numbers in a file. The type in double precision is also the one in memory.
+/// HDF5 type of a number in a file. Without `float32` it is also the type in memory.
 hid_t type_of(Number number, bool float32 = false);
 
-/// A letter of `shape` is F frames, O = F+1, N grains, C contacts, K species and the boundary, D
-/// digests of a frame, d dimensions, w components of a spin (of a disc none), or 4.
+/// A dataset. Each letter of `shape` is the size of a dimension: F frames, O = F+1, N grains, C
+/// contacts, K species and the boundary, D digests of a frame, d dimensions of space, w components
+/// of a spin (no dimension for discs), or 4.
 struct LayoutRow {
   const char* path;
   Number type;
   std::string_view shape;
   const char* unit = "";
 
-  /// True of a dataset that grows with the run.
+  /// True for a dataset that grows with the run.
   bool grows() const { return shape.find_first_of("FOC") == 0; }
 };
 
-/// In the order in which a file is made.
-constexpr std::array layout{
+/// All datasets, in the order in which they are created.
+inline constexpr std::array layout{
     LayoutRow{"/particles/grains/box/edges", Number::f64, "d"},
     LayoutRow{"/particles/grains/id", Number::i32, "N"},
     LayoutRow{"/particles/grains/species", Number::i32, "N"},
@@ -63,39 +64,39 @@ constexpr std::array layout{
     LayoutRow{"/grseg/seal", Number::u64, "4"},
 };
 
-/// Sizes that the letters of a shape stand for in one run.
+/// Values of the letters of a shape in one run.
 struct LayoutSizes {
-  std::size_t frames, contacts, grains, species;  // mobile species
+  std::size_t frames, contacts, grains, species;  // counts; species: number of mobile ones
   int dimension;
 };
 std::vector<hsize_t> shape_of(std::string_view letters, const LayoutSizes& sizes);
 
-/// Row of a path, which must be in the table, or of a field of for_each_array().
+/// Row of the table for a path, which must be in the table, or for a field of for_each_array().
 const LayoutRow& row_at(std::string_view path);
 const LayoutRow& row_of(Field field);
 
-// Content that a file holds once: how it is created and read.
+// Functions that create and read the content of a file outside frames.
 
-/// Creates the trajectory file `path` (formats/README.md) with everything that a run holds once, no
-/// frame, and a seal of zeros. RunError where it cannot be written.
+/// Creates the trajectory file `path` (formats/README.md) with all content of `run`, no frame, and
+/// a seal of zeros. Throws RunError if the file cannot be written.
 void create_trajectory(const std::string& path, const RunDescription& run,
                        const StorageSettings& storage);
 
-/// Settings for files that are written `live`: everything added to a file opened with `access`
-/// begins at a page of memory (4096 bytes). A kill can cut a write at the end of a page. A header
-/// or a part of a chunk index that crosses one would then be half old and half new; HDF5 takes this
-/// for damage, and all chunks in it would be lost, even old frames. After 8,180 chunks, that is,
-/// frames, the parts of an index are longer than a page.
+/// Setting for files that are written `live` (StorageSettings): everything that is added to a file
+/// opened with `access` begins at a memory page (4096 bytes). A kill can cut a write at the end of
+/// a page. A header or a part of a chunk index across a page boundary would then be half old and
+/// half new. HDF5 treats this as damage, and all chunks in that index part would be lost, even old
+/// frames. From 8,180 chunks (frames) on, parts of an index are longer than a page.
 void keep_in_pages(hid_t access);
 
-/// Writes one of /parameters into `file`, or replaces it. In a `live` file it must be there
-/// already, with the same number of values. RunError where it cannot be written.
+/// Writes or replaces a parameter (in /parameters). In a `live` file it must already exist with the
+/// same number of values. Throws RunError if it cannot be written.
 void write_parameter(hid_t file, const std::string& name, const std::vector<double>& values,
                      bool live);
 void write_parameter(hid_t file, const std::string& name, const std::string& text);
 
-/// Reads and checks an open trajectory file, except the contents of its frames. Throws as
-/// TrajectoryReader does.
+/// Reads and checks an open trajectory file, except the content of its frames. Throws the same
+/// errors as TrajectoryReader.
 StoredRun read_stored_run(hid_t file, const std::string& path);
 
 }  // namespace grseg

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 namespace grseg {
 namespace {
@@ -23,7 +24,7 @@ std::string name_of(Number number, bool float32)
   return names_of_numbers[static_cast<std::size_t>(number)];
 }
 
-/// True where both types are equal except for the order of bytes.
+/// True if both types are equal apart from their byte order.
 bool is_like(hid_t type, hid_t wanted)
 {
   return H5Tget_class(type) == H5Tget_class(wanted) && H5Tget_size(type) == H5Tget_size(wanted) &&
@@ -48,8 +49,9 @@ class LayoutCheck {
   LayoutReport report()
   {
     check_attributes();
+    const std::string_view force = row_of(Field::force).path;
     for (const auto& row : layout)
-      if (run_.has_force() || row.path != row_of(Field::force).path) check_row(row.path, row);
+      if (run_.has_force() || row.path != force) check_row(row.path, row);
     for (const char* element : {"velocity", "angular_velocity", "image", "force"})
       if (run_.has_force() || std::string(element) != "force")
         check_times(std::string("/particles/grains/") + element);
@@ -67,7 +69,7 @@ class LayoutCheck {
     report_.departures.push_back({path, what});
   }
 
-  /// An empty `wanted` accepts any text that is not empty.
+  /// Checks the text attribute `name` of `path`. If `wanted` is empty, any non-empty text is right.
   void check_text(const std::string& path, const std::string& name, const std::string& wanted)
   {
     const auto found = read_texts(Object(H5Oopen(file_, path.c_str(), H5P_DEFAULT)), name);
@@ -98,8 +100,8 @@ class LayoutCheck {
     numbers("/particles/grains/box", "dimension", {static_cast<double>(run_.dimension())});
   }
 
-  /// Datasets of a run that was not closed may hold more: what it wrote after its last committed
-  /// frame.
+  /// Checks type, shape and unit of a dataset. If the run was not closed, the dataset may be
+  /// longer, by data written after the last committed frame.
   void check_row(const std::string& path, const LayoutRow& row)
   {
     const Dataset dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
@@ -149,8 +151,8 @@ class LayoutCheck {
     }
   }
 
-  /// Adds to the report the chunks that the shape needs (HDF5 would count them in an index, which
-  /// may claim any number); returns the rows of a chunk.
+  /// Adds the number of chunks to the report, and returns the number of rows of a chunk. The number
+  /// is computed from the shape, because HDF5's chunk index may be damaged.
   hsize_t count_chunks(const Dataset& dataset, const std::vector<hsize_t>& dims)
   {
     const Properties create(H5Dget_create_plist(dataset));
@@ -165,7 +167,7 @@ class LayoutCheck {
 
   void read_whole(const std::string& path)
   {
-    constexpr hsize_t at_a_time = 1 << 23;  // bytes
+    constexpr hsize_t at_a_time = 1 << 23;  // bytes per read
     const Dataset dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
     const Type type(H5Dget_type(dataset));
     const auto kind = H5Tget_class(type);
@@ -177,7 +179,7 @@ class LayoutCheck {
     if (std::count(dims.begin(), dims.end(), hsize_t{0}) > 0) return;
     checked.require_possible(dims.empty() ? 1 : dims[0]);
     const hsize_t chunk = count_chunks(dataset, dims);
-    hsize_t bytes = H5Tget_size(type);  // of a row
+    hsize_t bytes = H5Tget_size(type);  // bytes of a row
     for (std::size_t k = 1; k < dims.size(); ++k) bytes *= dims[k];
     const hsize_t rows = std::max<hsize_t>(at_a_time / (bytes * chunk), 1) * chunk;
     std::vector<char> buffer(bytes * (dims.empty() ? 1 : std::min(rows, dims[0])));
@@ -190,7 +192,7 @@ class LayoutCheck {
   File file_;
   LayoutReport report_;
   std::set<haddr_t>
-      seen_;  // objects that have been read: links may lead to one twice, or in circles
+      seen_;  // addresses of objects read so far: links may lead to one twice, or in circles
 };
 
 }  // namespace

@@ -9,23 +9,22 @@
 
 namespace grseg {
 
-/// A path inside a trajectory file that differs from formats/README.md.
+/// A deviation of a trajectory file from formats/README.md.
 struct Departure {
-  std::string path;       // "/particles/grains/velocity/time"
-  std::string what;       // "is not a hard link to /particles/grains/position/time"
-  std::size_t count = 1;  // how often; `what` is the first
+  std::string path;       // path in the file: "/particles/grains/velocity/time"
+  std::string what;       // deviation: "is not a hard link to /particles/grains/position/time"
+  std::size_t count = 1;  // number of similar deviations; `what` is the first one
 };
 
 struct LayoutReport {
   std::vector<Departure> departures;
-  std::size_t datasets = 0, chunks = 0;  // read completely
+  std::size_t datasets = 0, chunks = 0;  // numbers of datasets and chunks read completely
 };
 
 /// Compares the layout of a readable run with formats/README.md: exact types and shapes, units,
-/// attributes, hard links of step and time. Also reads every dataset of the file completely, listed
-/// in README.md or not, so that checksums of HDF5 are verified. FormatError naming the
-/// dataset and the row where that fails, or where a filter is used that a plain reader may not
-/// have.
+/// attributes, hard links of step and time. Also reads every dataset of the file completely, even
+/// if README.md does not list it, so that HDF5 verifies its checksums. Throws FormatError, which
+/// names dataset and row, if that fails or if a dataset uses a filter that other readers may lack.
 LayoutReport check_layout(const TrajectoryReader& run);
 
 }  // namespace grseg

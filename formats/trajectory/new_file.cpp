@@ -16,7 +16,7 @@ namespace {
 
 using namespace hdf5;
 
-/// From here on all that is added to a file begins at a multiple of so many bytes.
+/// Sets that everything added to a file from now on begins at a multiple of `bytes`.
 void align(hid_t access, hsize_t bytes)
 {
   H5Pset_meta_block_size(access, 0);
@@ -29,11 +29,11 @@ class NewFile {
       : path_(path), run_(run), storage_(storage)
   {
     const Properties create = without_time();
-    // Space that the library frees during a run is not reused: a kill may come before the index on
-    // disk is updated.
+    // Space that the library frees during a run is not reused, because a kill may come before the
+    // index on disk is updated.
     if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
     const Properties access = newest_format();
-    if (storage.live) align(access, 512);  // headers are shorter
+    if (storage.live) align(access, 512);  // bytes; headers are shorter
     file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, access));
     if (!file_.valid())
       throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
@@ -62,7 +62,7 @@ class NewFile {
   }
 
  private:
-  /// A row of the table that does not grow.
+  /// Writes the dataset `at`, which does not grow.
   template <class Numbers>
   void write_numbers(const char* at, const Numbers& numbers) const
   {
@@ -124,16 +124,16 @@ class NewFile {
     write_numbers("/grseg/species/mobile", mobile);
   }
 
-  /// Creates the growing datasets below `group`, or the one that has this path. Elements of H5MD
-  /// have `value`, `step` and `time`.
+  /// Creates the growing datasets whose paths begin with `group`. H5MD elements consist of `value`,
+  /// `step` and `time`; the last two become links.
   void create_series(std::string_view group) const
   {
     for (const auto& row : layout) {
       const std::string path = row.path;
       if (!path.starts_with(group) || !row.grows()) continue;
-      if (&row == &row_of(Field::force) && !run_.has_force) continue;
+      if (path == row_of(Field::force).path && !run_.has_force) continue;
       create_series(path, row);
-      if (path.ends_with("/value") && &row != &row_of(Field::position))
+      if (path.ends_with("/value") && path != row_of(Field::position).path)
         h5md::link_times(file_, position, path.substr(0, path.rfind('/')));
     }
   }
@@ -166,7 +166,7 @@ class NewFile {
   File file_;
 };
 
-/// Removes the parameter `name`, if it exists, so that it can be written again; returns its path.
+/// Removes the parameter `name`, if it exists, so that it can be rewritten; returns its path.
 std::string cleared(hid_t file, const std::string& name)
 {
   std::string at = "/parameters/" + name;

@@ -43,8 +43,7 @@ void check_presence(const StoredRun& run, std::size_t index, const Frame<D>& fra
                        [present](double x) { return present ? std::isfinite(x) : std::isnan(x); }))
         run.fail(fmt::format(
             "{} of grain {} in frame {} is {}; the frame is damaged", row_of(field).path, g, index,
-            present ? "not finite"
-                    : "not NaN throughout, though its position says that it is absent"));
+            present ? "not finite" : "not NaN, although the position marks the grain as absent"));
     }
   });
   const auto& contacts = frame.contacts;
@@ -55,8 +54,8 @@ void check_presence(const StoredRun& run, std::size_t index, const Frame<D>& fra
                              index, g));
 }
 
-/// FormatError where the numbers of a frame that has been read are not finite (of an absent grain:
-/// not NaN throughout), or its contacts join no grains or absent ones.
+/// Throws FormatError if a number of the frame is not finite (for an absent grain: not NaN), or if
+/// a contact names a grain that does not exist or is absent.
 template <int D>
 void check_frame(const StoredRun& run, std::size_t index, const Frame<D>& frame)
 {
@@ -80,8 +79,8 @@ void check_frame(const StoredRun& run, std::size_t index, const Frame<D>& frame)
   if (come_and_go) check_presence(run, index, frame);
 }
 
-/// A small cache for the index of chunks, so that memory does not grow with the number of frames,
-/// which are read one after the other.
+/// Settings for a small cache of HDF5 metadata, so that memory does not grow with the number of
+/// frames, which are read one after the other.
 Properties small_index_cache()
 {
   silence();
@@ -95,7 +94,7 @@ Properties small_index_cache()
   return access;
 }
 
-/// "/particles/grains/position" of "/particles/grains/position/value".
+/// Name of a field for messages: "/particles/grains/position" for ".../position/value".
 std::string name_in_messages(Field field)
 {
   if (field == Field::place) return "/particles/grains/position/step, time or its rows of contacts";
@@ -107,12 +106,12 @@ std::string name_in_messages(Field field)
 std::string changed(Field field, std::size_t index)
 {
   return fmt::format(
-      "{} of frame {} is not what was written: the file is damaged; take a copy that is whole, or "
-      "leave the frame out with --begin or --end",
+      "{} of frame {} is not what was written: the file is damaged; use an intact copy, or leave "
+      "the frame out with --begin or --end",
       name_in_messages(field), index);
 }
 
-/// True where these fields hold an array.
+/// True if `fields` include the array `array`.
 bool include(TrajectoryReader::Fields fields, Field array)
 {
   if (is_of_contacts(array)) return fields.contacts;
@@ -125,10 +124,10 @@ bool matches(const StoredRun& run, std::size_t index, Field field, std::uint64_t
   return run.field_digests[index][static_cast<std::size_t>(field)] == digest;
 }
 
-/// Damage outside frames or to their places, in one sentence; "" if there is none.
+/// One sentence about damage outside frames or to Field::place; "" if there is none.
 std::string damage_of(const StoredRun& run)
 {
-  constexpr const char* remedy = "the file is damaged; take a copy that is whole";
+  constexpr const char* remedy = "the file is damaged; use an intact copy";
   const auto digest = static_digest(run.description);
   if (digest != run.static_digest)
     return fmt::format(
@@ -145,11 +144,11 @@ std::string damage_of(const StoredRun& run)
   return seal.numbers() == run.seal
              ? ""
              : fmt::format(
-                   "/grseg/seal names other frames or another summary than the file holds: {}",
+                   "/grseg/seal does not agree with the frames or the summary in the file: {}",
                    remedy);
 }
 
-/// The first of the fields that were read which is not as it was written.
+/// The first field of `fields` that does not agree with its digest; empty if all agree.
 template <int D>
 std::optional<Field> changed_field(const StoredRun& run, bool float32, std::size_t index,
                                    const Frame<D>& frame, TrajectoryReader::Fields fields)
@@ -165,7 +164,7 @@ std::optional<Field> changed_field(const StoredRun& run, bool float32, std::size
 
 }  // namespace
 
-/// The datasets with rows for each frame, whose types and shapes have been checked.
+/// The datasets that store frames and contacts; the constructor checks their types and shapes.
 struct TrajectoryReader::Datasets {
   Datasets(File its_file, const StoredRun& of_run) : file(std::move(its_file)), run(of_run)
   {
@@ -234,7 +233,7 @@ struct TrajectoryReader::Datasets {
 
   File file;
   const StoredRun& run;
-  std::array<RowReader, number_of_fields> rows;  // by Field
+  std::array<RowReader, number_of_fields> rows;  // index: Field
 };
 
 TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify) : verify_(verify)
@@ -242,7 +241,7 @@ TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify) : ver
   auto file = open_for_reading(path, small_index_cache());
   run_ = std::make_unique<StoredRun>(read_stored_run(file, path));
   datasets_ = std::make_unique<Datasets>(std::move(file), *run_);
-  if (!closed())  // what is known at the end is not there
+  if (!closed())  // parameters that are known only at the end have no values yet
     std::erase_if(run_->description.parameters.numbers,
                   [](const auto& number) { return is_known_at_end(number.first); });
   if (verify == Verify::no) return;

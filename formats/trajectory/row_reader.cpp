@@ -13,14 +13,14 @@ namespace {
 
 using namespace hdf5;
 
-// Bytes, unpacked, of the chunks that are kept for the next frames: for more threads than a block
-// of frames needs, and little beside a frame.
+// Largest uncompressed size of the chunks in kept_, bytes: enough for the threads that work on a
+// block of frames, and small compared with a frame.
 constexpr std::size_t most_kept = 2 << 20;
 
-// Deflate packs at most 1032 : 1.
+// Largest accepted compression ratio; deflate reaches at most 1032 : 1.
 constexpr hsize_t most_deflated = 1040;
 
-/// True where the filters are deflate, or shuffle (of single numbers) and then deflate.
+/// True if the filters are deflate, or shuffle (of numbers of `number_bytes`) and then deflate.
 bool has_known_filters(hid_t create, std::size_t number_bytes)
 {
   const int filters = H5Pget_nfilters(create);
@@ -36,7 +36,7 @@ bool has_known_filters(hid_t create, std::size_t number_bytes)
   return filters == 1 || (filter(0, value) == H5Z_FILTER_SHUFFLE && value == number_bytes);
 }
 
-/// How the dataset is packed; nothing where HDF5 should read it.
+/// Layout of the dataset's chunks; null if HDF5 should read the dataset.
 std::shared_ptr<const ChunkLayout> layout_of(const CheckedDataset& dataset)
 {
   const Properties create(H5Dget_create_plist(dataset.id()));
@@ -93,7 +93,7 @@ void RowReader::load(hsize_t first, hsize_t count, void* data,
   }
 }
 
-/// Nothing where the chunk was never written: HDF5 knows what stands for it.
+/// The chunk of this number; null if it was never written (HDF5 then supplies fill values).
 std::shared_ptr<const Chunk> RowReader::chunk(std::size_t number) const
 {
   const auto found = std::find_if(kept_.begin(), kept_.end(),
@@ -110,8 +110,7 @@ std::shared_ptr<const Chunk> RowReader::chunk(std::size_t number) const
                                    layout_->dataset, number, start[0], how));
   };
   if (size > most_bytes_) throw damaged("claims to be larger than the file");
-  if (layout_->chunk_bytes() / most_deflated > size)
-    throw damaged("claims to hold more than its bytes can");
+  if (layout_->chunk_bytes() / most_deflated > size) throw damaged("is too small for its content");
   auto bytes = std::make_unique_for_overwrite<std::uint8_t[]>(size);
   std::uint32_t left_out = 0;
   if (H5Dread_chunk(dataset_.id(), H5P_DEFAULT, start.data(), &left_out, bytes.get()) < 0)

@@ -10,10 +10,10 @@
 
 namespace grseg {
 
-/// Reads rows of a dataset as double (H5T_FLOAT) or std::int32_t (H5T_INTEGER). HDF5 knows no
-/// threads and would decompress within its calls. So where a dataset is compressed as grseg does
-/// it, its chunks are read as they are, and unpacking is left to the caller's threads. HDF5 itself
-/// reads all other datasets.
+/// Reader of rows of a dataset as double (H5T_FLOAT) or std::int32_t (H5T_INTEGER). HDF5 would
+/// decompress within its calls, one thread at a time. So if a dataset is compressed as grseg does
+/// it, `load` reads its chunks without decompression, and the threads of the caller unpack them.
+/// HDF5 itself reads all other datasets.
 class RowReader {
  public:
   RowReader() = default;
@@ -22,8 +22,8 @@ class RowReader {
   const std::string& path() const { return dataset_.path(); }
   bool stores_float32() const { return dataset_.stores_float32(); }
 
-  /// Reads rows [first, first + count) to `data`; rows still to be unpacked to there are appended
-  /// to `packed`. FormatError naming the dataset where they cannot be read.
+  /// Reads rows [first, first + count) to `data`. Compressed rows are appended to `packed` instead;
+  /// unpacking them fills `data`. Throws FormatError, which names the dataset, if that fails.
   void load(hsize_t first, hsize_t count, void* data, std::vector<PackedRows>& packed) const;
 
  private:
@@ -31,9 +31,9 @@ class RowReader {
 
   hdf5::CheckedDataset dataset_;
   hid_t memory_type_ = H5I_INVALID_HID;
-  std::shared_ptr<const ChunkLayout> layout_;              // none: HDF5 reads the dataset
-  hsize_t most_bytes_ = 0;                                 // of a chunk as stored
-  mutable std::deque<std::shared_ptr<const Chunk>> kept_;  // the latest, which hold several frames
+  std::shared_ptr<const ChunkLayout> layout_;              // null: HDF5 reads the dataset
+  hsize_t most_bytes_ = 0;                                 // upper limit of a stored chunk, bytes
+  mutable std::deque<std::shared_ptr<const Chunk>> kept_;  // latest chunks, reused by next frames
 };
 
 }  // namespace grseg

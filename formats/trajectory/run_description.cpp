@@ -8,8 +8,8 @@
 namespace grseg {
 namespace {
 
-/// Adds the parameters known at the end, or the others, in alphabetical order: numbers, then texts.
-/// `complete` only repeats that there is a seal.
+/// Adds parameters in alphabetical order, numbers before texts: those known only at the end, or all
+/// others. `complete` is skipped, because it only repeats that there is a seal.
 void add_parameters(Digester& digester, const Parameters& parameters, bool known_at_end)
 {
   const auto add = [&](const auto& all) {

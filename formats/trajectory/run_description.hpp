@@ -13,19 +13,19 @@
 
 namespace grseg {
 
-/// Content that a trajectory file holds once.
+/// Description of a run: the content of a trajectory file that does not belong to frames.
 struct RunDescription {
   Grains grains;
   Box box;
   Parameters parameters;
   std::vector<Observable> observables;
-  bool has_force = true;            // false: no frame has forces on grains, as in some imports
-  SpeciesList species = {};         // of mobile grains; none: small and large
+  bool has_force = true;            // false: no frame has forces on grains (some imports)
+  SpeciesList species = {};         // mobile species; empty: small and large
   bool grains_come_and_go = false;  // true: a grain may be absent in a frame (core/frame.hpp)
 };
 
-/// The mobile species of a run, of which there is at least one: where the description lists none,
-/// small and large with the diameters of /parameters (0 where these name none).
+/// Mobile species of a run, at least one. If the description lists none: small and large with the
+/// diameters in /parameters (0 if missing).
 inline SpeciesList species_of(const RunDescription& run)
 {
   if (!run.species.empty()) return run.species;
@@ -33,19 +33,19 @@ inline SpeciesList species_of(const RunDescription& run)
                    run.parameters.find_number("large_diameter").value_or(0));
 }
 
-/// True for a parameter that is known only when a run has ended: `complete` and summary_*. The seal
-/// covers these, the static digest all others.
+/// True for parameters that are known only when a run has ended: `complete` and summary_*. The seal
+/// covers these parameters, the static digest all others.
 bool is_known_at_end(const std::string& parameter);
 
 /// Digest of box, grains, species, names and units of observables, and parameters.
 std::uint64_t static_digest(const RunDescription& run);
 
-/// Seal, written when the file is closed: it covers the number of frames and everything that is
-/// known only then. All zeros before.
+/// Seal of a file, written when the file is closed; all zeros before. It covers the numbers of
+/// frames and contacts and all parameters that are known only at the end.
 struct Seal {
   std::uint64_t frames = 0, contacts = 0;
-  std::uint64_t chain = 0;   // frame_digest of the last frame
-  std::uint64_t digest = 0;  // of the three, the static digest and the parameters known at the end
+  std::uint64_t chain = 0;   // frame_digest() of the last frame
+  std::uint64_t digest = 0;  // of the members above, static_digest and parameters known at the end
 
   using Numbers = std::array<std::uint64_t, 4>;
   Numbers numbers() const { return {frames, contacts, chain, digest}; }
@@ -60,16 +60,16 @@ struct StoredRun {
   RunDescription description;
   std::vector<std::int64_t> steps;
   std::vector<double> times;
-  std::vector<std::uint64_t> offset;  // frame k owns the contacts offset[k] to offset[k + 1] - 1
-  std::vector<std::uint64_t> chain;   // frame_digest of each frame
+  std::vector<std::uint64_t> offset;  // contacts of frame k: rows offset[k] to offset[k + 1] - 1
+  std::vector<std::uint64_t> chain;   // frame_digest() of each frame
   std::vector<FieldDigests> field_digests;
   std::uint64_t static_digest = 0;
   Seal::Numbers seal{};
 
-  /// Committed frames.
+  /// Number of committed frames.
   std::size_t size() const { return offset.size() - 1; }
   bool closed() const { return seal != Seal{}.numbers(); }
-  /// FormatError naming the file.
+  /// Throws FormatError with the name of the file before `why`.
   [[noreturn]] void fail(const std::string& why) const;
 };
 

@@ -17,14 +17,14 @@ namespace {
 
 using namespace hdf5;
 
-// Limits far beyond any real run: a damaged size is refused before memory is allocated.
+// Limits far beyond any real run, by which damaged sizes are refused before memory is allocated.
 constexpr hsize_t most_grains = 100'000'000;
 constexpr hsize_t most_frames = 100'000'000;
 constexpr hsize_t most_species = 65536;
-constexpr hsize_t most_text = 16'000'000;
-constexpr hsize_t most_numbers = 65536;  // in a parameter
+constexpr hsize_t most_text = 16'000'000;  // bytes of a text parameter
+constexpr hsize_t most_numbers = 65536;    // numbers of one parameter
 
-/// A text of fixed length, which is padded with zeros.
+/// A text of fixed length without its padding of zeros.
 std::string padded(const std::string& all, std::size_t begin, std::size_t length)
 {
   std::string text = all.substr(begin, length);
@@ -32,7 +32,7 @@ std::string padded(const std::string& all, std::size_t begin, std::size_t length
   return text;
 }
 
-/// "0 small, 1 large, 2 boundary"
+/// Numbers and names of all species for messages: "0 small, 1 large, 2 boundary".
 std::string numbers_and_names(const SpeciesList& list)
 {
   std::string words;
@@ -41,7 +41,7 @@ std::string numbers_and_names(const SpeciesList& list)
   return words + fmt::format("{} {}", list.size(), name_of_boundary);
 }
 
-/// Reads a file up to its frames.
+/// Reads the content of a file outside frames.
 class HeadReader {
  public:
   HeadReader(hid_t file, const std::string& path) : file_(file) { run_.path = path; }
@@ -78,7 +78,7 @@ class HeadReader {
   {
     auto version = attribute(module, "version");
     if (version.size() != 2)
-      run_.fail(fmt::format("{} has no version: this is no run of grseg, or damaged", module));
+      run_.fail(fmt::format("{} has no version: not a run of grseg, or damaged", module));
     return version;
   }
 
@@ -95,7 +95,7 @@ class HeadReader {
                       fmt::join(file, ".")));
   }
 
-  /// The first `count` numbers of a dataset, which must have so many, or at_least.
+  /// First `count` entries of a dataset that must have `count` entries (with `at_least`: or more).
   template <class T>
   std::vector<T> column(const std::string& at, hsize_t count, bool at_least = false) const
   {
@@ -147,7 +147,7 @@ class HeadReader {
                               3,        edges[2], boundary[2] == "periodic"};
   }
 
-  /// Mobile species in order of their diameters, then the boundary.
+  /// Reads the species: mobile ones in order of their diameters, then the boundary.
   void read_species()
   {
     const auto names = open("/grseg/species/name", H5T_STRING, 1);
@@ -173,10 +173,10 @@ class HeadReader {
     std::set<std::string> different;
     for (const auto& [name, size] : run_.description.species) {
       if (!is_species_name(name))
-        run_.fail(fmt::format("/grseg/species/name holds '{}': {}", printable(name),
+        run_.fail(fmt::format("/grseg/species/name contains '{}': {}", printable(name),
                               rule_of_species_names));
       if (!different.insert(name).second)
-        run_.fail(fmt::format("/grseg/species/name holds {} twice", printable(name)));
+        run_.fail(fmt::format("/grseg/species/name contains {} twice", printable(name)));
     }
     const auto of_parameters =
         two_sizes(run_.description.parameters.find_number("small_diameter").value_or(0),
@@ -234,7 +234,7 @@ class HeadReader {
   {
     const std::string at = "/parameters/" + name;
     const Dataset dataset(H5Dopen2(file_, at.c_str(), H5P_DEFAULT));
-    if (!dataset.valid()) return;  // a group of a newer version
+    if (!dataset.valid()) return;  // a group, which a newer version of the format may have
     const Type type(H5Dget_type(dataset));
     if (H5Tget_class(type) == H5T_STRING) {
       const auto text = open(at, H5T_STRING, 0);

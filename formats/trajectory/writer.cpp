@@ -21,7 +21,7 @@ namespace {
 
 using namespace hdf5;
 
-/// One growing dataset with the type it is filled from.
+/// A growing dataset, with the type in memory of the numbers that are appended.
 struct Series {
   Dataset dataset;
   hid_t memory_type = H5I_INVALID_HID;
@@ -33,7 +33,7 @@ struct Series {
   }
 };
 
-/// Numbers of the observables in alphabetical order.
+/// Indices of the observables in alphabetical order of their names.
 std::vector<std::size_t> alphabetical(const std::vector<Observable>& observables)
 {
   std::vector<std::size_t> order(observables.size());
@@ -51,17 +51,17 @@ struct TrajectoryWriter::Impl {
   RunDescription run;
   StorageSettings storage;
   File file;
-  std::array<Series, number_of_fields> arrays;  // by Field
+  std::array<Series, number_of_fields> arrays;  // index: Field
   Series step, time, offset, digest, field_digests;
   std::vector<Series> observables;
   std::vector<std::size_t> observables_in_order;
   std::size_t frames_so_far = 0;
   std::uint64_t contacts_so_far = 0;
   std::uint64_t digest_so_far = 0;
-  bool is_writing = false;  ///< still so after a write that failed
+  bool is_writing = false;  ///< true during a write, and forever after a write that failed
 
-  /// A live file gets its name once it can be read, that is, before HDF5 marks it as being written
-  /// otherwise than in SWMR mode.
+  /// Creates and opens the file. A live file gets its final name after creation and before it is
+  /// opened again in SWMR mode, so that readers never meet it in a state which they cannot read.
   void open_file()
   {
     const RemoveAtEnd unfinished(storage.live ? temporary_path(path) : "");
@@ -92,7 +92,7 @@ struct TrajectoryWriter::Impl {
     });
   }
 
-  /// In an order that never changes: HDF5 writes datasets in the order in which they were opened.
+  /// Opens all datasets in a fixed order, because HDF5 writes them in the order of their opening.
   void open_series()
   {
     step = series(row_at("/particles/grains/position/step"));
@@ -113,8 +113,8 @@ struct TrajectoryWriter::Impl {
     for (std::size_t g = 0; g < frame.position.size(); ++g)
       if (!is_present(frame, g))
         throw RunError(fmt::format(
-            "{}: grain {} has no position in frame {}, in a run whose grains are always there",
-            path, run.grains.id[g], frames_so_far));
+            "{}: grain {} has no position in frame {}, but this run allows no absent grains", path,
+            run.grains.id[g], frames_so_far));
   }
 
   template <int D>
@@ -179,8 +179,8 @@ TrajectoryWriter::TrajectoryWriter(const std::string& path, const RunDescription
 
 TrajectoryWriter::~TrajectoryWriter()
 {
-  // Closing a live file after a write that failed would mark it as whole, and HDF5 refuses it then:
-  // it is left as a kill would leave it, with all frames but the last one.
+  // Closing a live file after a failed write would mark it as whole, and HDF5 would then refuse to
+  // open it. Without closing, the file stays as after a kill, with all frames but the last one.
   static Impl* abandoned = nullptr;
   if (impl_ && impl_->storage.live && impl_->is_writing) abandoned = impl_.release();
   static_cast<void>(abandoned);
@@ -256,7 +256,7 @@ void TrajectoryWriter::close()
   my.flush();
   const std::string path = my.path;
   File file = std::move(my.file);
-  impl_ = std::make_unique<Impl>();  // closes every dataset before the file
+  impl_ = std::make_unique<Impl>();  // closes every dataset; must precede closing the file
   if (close_file(file.release()) < 0)
     throw RunError(fmt::format("cannot write {}: {}", path, reason_of_failure()));
 }

@@ -15,21 +15,22 @@ namespace grseg {
 class TrajectoryReader;
 
 struct StorageSettings {
-  int compression = 0;   ///< deflate level; not while `live`
-  bool float32 = false;  ///< halves the file; contact balances then close to 1e-6 only
-  /// Each appended frame is in the file at once: it survives a kill at any moment and can be read
-  /// meanwhile (HDF5's SWMR mode). Otherwise a file can be read once it has been closed.
+  int compression = 0;   ///< deflate level; must be 0 for `live` files
+  bool float32 = false;  ///< true: half the file size, but force balances close only to 1e-6
+  /// True: each appended frame is in the file at once, survives a kill at any moment, and can be
+  /// read while the run goes on (HDF5's SWMR mode). False: the file can be read after its closing.
   bool live = false;
-  std::size_t contact_chunk = 8192;  ///< contacts that are stored together
-  std::size_t scalar_chunk = 1024;   ///< frames whose single numbers are stored together
+  std::size_t contact_chunk = 8192;  ///< rows per chunk of contact datasets
+  std::size_t scalar_chunk = 1024;   ///< frames per chunk of datasets with one number per frame
 };
 
-/// Writes a trajectory file (formats/README.md) frame by frame. A frame counts once its end is
-/// entered in /grseg/contacts/offset, which is done last, after everything else has been flushed to
-/// the file; until then readers do not see it. Throws RunError when the file cannot be written.
+/// Writer of trajectory files (formats/README.md), frame by frame. A frame is committed by adding
+/// the end of its contacts to /grseg/contacts/offset, after everything else has been flushed to the
+/// file. Readers see only committed frames. Throws RunError if the file cannot be written.
 ///
-/// A live file gets its name once it can be read. Parameters that are known only at its end
-/// (run_description.hpp) must be in the description, as numbers of which only the count matters.
+/// A live file gets its final name as soon as it can be read. Its description must contain the
+/// parameters that are known only at the end (is_known_at_end()), with the right number of values;
+/// the values are placeholders.
 class TrajectoryWriter {
  public:
   TrajectoryWriter(const std::string& path, const RunDescription& run,
@@ -37,18 +38,17 @@ class TrajectoryWriter {
   ~TrajectoryWriter();
   TrajectoryWriter(TrajectoryWriter&&) noexcept;
 
-  /// `observables` holds one value per entry of RunDescription::observables.
+  /// Appends a frame. `observables` has one value per entry of RunDescription::observables.
   template <int D>
   void append(const Frame<D>& frame, std::span<const double> observables);
 
-  /// Hands all frames so far to the system, so that a kill cannot lose them.
+  /// Passes all frames so far to the system, so that a kill cannot lose them.
   void flush();
 
-  std::size_t frames() const;    ///< appended so far
-  std::uint64_t digest() const;  ///< xxh3 chain up to the last of them, as in TrajectoryReader
+  std::size_t frames() const;    ///< number of frames appended so far
+  std::uint64_t digest() const;  ///< frame_digest() of the last of these frames
 
-  /// Adds or replaces entries of /parameters that are known only at the end, such as the summary of
-  /// the run.
+  /// Adds or replaces parameters that are known only at the end, such as the summary of the run.
   void add_parameters(const Parameters& parameters);
 
   /// Seals, flushes and closes the file; throws the errors that a destructor would have to ignore.
@@ -59,16 +59,15 @@ class TrajectoryWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A writer of the file `to` that begins with the first `frames` frames of `run`, takes
-/// `observables`, which `run` must have, in this order, and has the given `parameters`.
+/// Returns a writer to the new file `to` that has already copied the first `frames` frames of
+/// `run`. The file has these `parameters` and these `observables` of `run`, in the given order.
 TrajectoryWriter copy_frames(const TrajectoryReader& run, std::size_t frames, const std::string& to,
                              const Parameters& parameters,
                              const std::vector<Observable>& observables,
                              const StorageSettings& storage);
 
-/// Copies the run in the file `from` to `to` with another `storage`; this is how a finished run is
-/// compressed. Numbers and content digest stay the same, if a file in single precision stays in
-/// single precision.
+/// Copies the run in the file `from` to `to` with another `storage`, e.g. to compress a finished
+/// run. Numbers and content digest stay the same unless `storage` changes the precision.
 void repack(const std::string& from, const std::string& to, const StorageSettings& storage);
 
 }  // namespace grseg

@@ -1,15 +1,15 @@
 #!/usr/bin/python3
-"""Writes the state of a run at the end of a frame's step (default: the last) for LAMMPS (atom_style sphere) and LIGGGHTS
-(granular), which both read this file.
+"""Writes the state of a run at the end of a frame's time step (default: last frame) as a file that LAMMPS (atom_style
+sphere) and LIGGGHTS (granular) both read.
 
     scripts/archives/state.py run.h5 [--at S] [-o FILE]
 
-Units of the output: small nominal diameter = gravity = density (mass per area) = 1. A frame holds
-positions at mid-step and velocities after the step; positions are advanced by the other half step and
-wrapped into [0, length). Boundary grains are at rest. The density 1 is mass per area of discs: LIGGGHTS reads it so in
-two dimensions, LAMMPS after `set group all density/disc 1`.
+Units of the output: small nominal diameter = gravity = density (mass per area) = 1. A frame includes positions at
+mid-step and velocities after the step, so positions are advanced by half a step and wrapped into [0, length). Boundary
+grains are at rest. The density 1 is mass per area of discs. LIGGGHTS reads it so in two dimensions; LAMMPS needs
+`set group all density/disc 1`.
 
-Types: 1 boundary, 2 large, 3 small. Ids count from 1 in the order of the run.
+Types: 1 boundary, 2 large, 3 small. Ids are 1, 2, ... in the order of the run.
 """
 import argparse
 import math
@@ -26,11 +26,11 @@ TYPE_OF_SPECIES = np.array([3, 2, 1])
 
 
 def state(run, at):
-    """The period, and for each grain its type, diameter, position, velocity and spin after the step of the last frame
-    up to `at` s."""
+    """Length of the period; type, diameter, position, velocity and spin of each grain after the step of the last frame
+    with time <= `at` (s)."""
     frames = int(np.searchsorted(run.times, at, "right"))
     if frames < 1:
-        sys.exit(f"{run.path}: holds no frame up to {at:g} s; let the run flow for at least one step")
+        sys.exit(f"{run.path}: there is no frame up to {at:g} s; use a later --at, or a run of at least one step")
     frame, d = run[frames - 1], run.small_diameter
     second = (d / np.hypot(*run.gravity))**0.5
     position = frame.position + run.step / 2 * frame.velocity
@@ -55,7 +55,7 @@ def write(out, length, kind, diameter, position, velocity, spin):
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("run")
-    options.add_argument("--at", type=float, default=math.inf, metavar="S", help="the last frame up to this time")
+    options.add_argument("--at", type=float, default=math.inf, metavar="S", help="write the last frame up to this time")
     options.add_argument("-o", "--output", type=argparse.FileType("w"), default=sys.stdout)
     given = options.parse_args()
     with grseg.Run(given.run) as run:

@@ -1,12 +1,12 @@
-"""Faults in what computes B, its intervals and the verdicts. Chosen from the sources before any test in
-tests/analysis had been read; each is a slip that a careful but tired physicist could make."""
+"""Faults in the code that computes B, its intervals and the verdicts. They were chosen from the sources before any test
+in tests/analysis had been read; each is a mistake that a careful but tired physicist could make."""
 import glob
 import os
 import re
 
 from copy_of_sources import run_quietly
 
-# Faults: (description, file, code that stands there, code that takes its place).
+# Faults: (description, file, code in the file, code that replaces it).
 FAULTS = [
     # Shares of mixed contacts, and contacts that ignore grain size.
     ("share: by size, the small grain's part goes to the large one", "analysis/stress/partition_rule.cpp",
@@ -439,7 +439,7 @@ FAULTS = [
     ("profile: mixed contacts left out of the stress", "scripts/reproduce/campaign/profiles.py",
      "CONTACTS = (\"A_SS\", \"A_LL\", \"M\", \"A_Sb\", \"A_Lb\")", "CONTACTS = (\"A_SS\", \"A_LL\", \"A_Sb\", \"A_Lb\")"),
     ("profile: the last two thirds of the time", "scripts/reproduce/campaign/profiles.py", "* 2 / 3", "/ 3"),
-    ("numbers: decay length in d_S", "scripts/reproduce/campaign/measures.py", "= -1 / slope / 2  # d_L", "= -1 / slope  # d_L"),
+    ("numbers: decay length in d_S", "scripts/reproduce/campaign/measures.py", "= -1 / slope / 2  # decay length in d_L", "= -1 / slope  # d_L"),
     ("numbers: prefactor at the lowest layer's height", "scripts/reproduce/campaign/measures.py",
      "found[f\"{name}_prefactor\"] = math.exp(level)",
      "found[f\"{name}_prefactor\"] = math.exp(level + slope * height[0])"),
@@ -480,19 +480,19 @@ FAULTS = [
     ("flows: B of any heights", "scripts/reproduce/campaign/flows.py",
      " and row[\"heights\"] == \"inside\" and row", " and row"),
     ("choices: differences to the first row instead of its own base", "scripts/reproduce/campaign/fits.py",
-     "in BASES or base is None else base", "in BASES and base is None else base or row"),
+     "base = row if row[\"choice\"] in BASES else base", "base = base or row"),
 ]
 
-# Faults that no test can see; the document has the reason.
+# Faults that no test can detect; docs/studies/fault-injection.md gives the reason.
 ARGUED = {"component: the trace instead of its part per dimension"}
 LIBRARY = "grseg_analysis"
-FOLDER = "analysis"  # of the library
-# Rooms whose tests are run for a fault in a room: its own, then the rooms that build on it.
+FOLDER = "analysis"  # folder of the library
+# For a fault in a room (folder of sources): rooms whose tests are run, first its own, then the rooms that depend on it.
 ASKED = {"frames": ["frames", "stress", "micro", "balance", "segregation", "fit", "check"],
          "statistics": ["statistics", "segregation", "fit"], "stress": ["stress", "micro", "fit", "check"],
          "micro": ["micro"], "balance": ["balance"], "segregation": ["segregation"], "fit": ["fit"]}
 ROOMS = list(ASKED["frames"]) + ["statistics"]
-# On files known by heart, and recomputed by numpy.
+# Tests of whole programs: on files with known results, and against results that numpy computes.
 WHOLE_PROGRAMS = r"^(Tool\.(stress|kinetic|micro|balance|segregation|fit)|Independent\.|Import\.(Halves|Six))"
 TOOLS = ["stress", "kinetic", "micro", "balance", "segregation", "fit", "check", "sim", "import"]
 TARGETS = [f"analysis_{room}_test" for room in ROOMS]
@@ -500,7 +500,7 @@ OPTIONS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1"]  # a fault is compiled more often th
 
 
 def of_rooms(copy, rooms):
-    """Names of the tests that fail, of the first room where any does; its slow ones are asked last."""
+    """Names of the failing tests of the first room that has any. Slow tests of a room run only if its others pass."""
     for room in rooms:
         program = f"analysis_{room}_test"
         slow = ":".join(copy.slow.get(program, []))
@@ -518,7 +518,7 @@ def of_whole_programs(copy):
 
 
 def of_scripts(copy):
-    """Names of the tests of scripts/reproduce that fail on tables known by heart, of the first file where any does."""
+    """Names of the failing tests of scripts/reproduce, which use tables with known results, of the first file with any."""
     names = []
     for test in sorted(glob.glob(f"{copy.tree}/tests/tools/reproduction_*_test.py")):
         done = run_quietly(["/usr/bin/python3", "-B", test, f"{copy.tree}/scripts"])
@@ -530,9 +530,9 @@ def of_scripts(copy):
 
 
 def noticed(copy, path):
-    """Names of the tests that fail: of the fault's own room; where none notices, of the rooms that build on it
-    and then of whole programs. That a number of docs/studies/reproduction.md changes is not counted: the page is
-    made again with every campaign."""
+    """Names of the failing tests: of the fault's own room; if there are none, of the rooms that depend on it, and then
+    of whole programs. A changed number in docs/studies/reproduction.md is not counted, because the page is made again
+    with every campaign."""
     if path.startswith("scripts/"):
         return {"near": of_scripts(copy), "far": []}
     near = of_rooms(copy, ASKED[path.split("/")[1]])
@@ -540,7 +540,7 @@ def noticed(copy, path):
 
 
 def sound(copy):
-    """Tests that fail without a fault; notes in copy.slow which take more than 0.1 s."""
+    """Names of tests that fail without a fault. Stores in copy.slow the tests that take more than 0.1 s."""
     copy.slow, failed = {}, of_scripts(copy)
     for program in TARGETS:
         results = copy.results(program, 60, "*")

@@ -1,4 +1,4 @@
-"""A copy of the sources that may be broken, and what its test programs say."""
+"""A copy of the sources in which faults are made, and the results of its test programs."""
 import contextlib
 import hashlib
 import json
@@ -19,8 +19,8 @@ def run_quietly(command, **options):
 
 
 def mirror(source, copy):
-    """Makes the copy of a file or folder equal. Contents decide, not times: a file may have been edited while an
-    earlier copy of it was compiled, or broken. What is equal keeps its time."""
+    """Makes the copy of a file or folder equal to its source. Compares contents, not times: a file may have been edited
+    while an earlier copy of it was compiled or broken. Equal files keep their times."""
     if os.path.isdir(source):
         os.makedirs(copy, exist_ok=True)
         names = [name for name in os.listdir(source) if name != "__pycache__"]
@@ -42,7 +42,7 @@ def mirror(source, copy):
 
 
 class Copy:
-    """The sources as they are now, in WORK/tree, built with `options` of CMake."""
+    """The present sources, copied to WORK/tree and built there with `options` of CMake."""
 
     def __init__(self, work, jobs, options=()):
         self.work, self.tree, self.jobs, self.options = work, f"{work}/tree", jobs, options
@@ -53,7 +53,7 @@ class Copy:
             mirror(part, f"{self.tree}/{part}")
         done = run_quietly(["cmake", "-S", self.tree, "-B", f"{self.tree}/build", "-G", "Ninja",
                             "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=ON", "-DBUILD_SHARED_LIBS=ON",
-                            "-DGRSEG_JOIN_SOURCES=OFF",  # a fault costs one file, not a room
+                            "-DGRSEG_JOIN_SOURCES=OFF",  # a fault costs the compilation of one file, not of a folder
                             "-DCMAKE_LINK_DEPENDS_NO_SHARED=ON", *self.options])
         if done.returncode != 0:
             raise SystemExit(done.stdout)
@@ -67,14 +67,14 @@ class Copy:
             raise SystemExit(f"{what}: {done.stdout}")
 
     def failures(self, name, seconds=20, only="*"):
-        """Names of the tests of one program that fail; the program itself where it crashes or hangs."""
+        """Names of the tests of one program that fail; a sentence about the program if it crashes or hangs."""
         results = self.results(name, seconds, only)
         if isinstance(results, str):
             return [results]
         return sorted({test for test, failed, _ in results if failed})
 
     def results(self, name, seconds, only):
-        """Triples of test, whether it fails, and its time in s; what the program does instead of ending well."""
+        """Triples of a test's name, True if it fails, and its time in s; a sentence if the program crashes or hangs."""
         report = f"{self.work}/{name}.json"
         if os.path.exists(report):
             os.remove(report)
@@ -92,7 +92,7 @@ class Copy:
 
 
 def kept_result(path, fault):
-    """The result of an earlier run, if it was of this very fault and some test noticed it."""
+    """The result of an earlier run, if it was for this fault and some test detected the fault."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
@@ -106,8 +106,9 @@ def mark_of(fault):
 
 @contextlib.contextmanager
 def broken(copy, part, path, text):
-    """The file with this text, compiled. Then file, object and library are put back as they were, times too, so
-    that nothing has to be compiled again; what a header or a page's program broke is compiled again by the next build."""
+    """Writes `text` into the file and compiles it. Afterwards restores file, object and library with their times, so
+    that nothing must be compiled again. Objects that a header or a program of the page broke are compiled again by the
+    next build."""
     source = f"{copy.tree}/{path}"
     build = f"{copy.tree}/build/{part.FOLDER}"
     made = [f"{build}/CMakeFiles/{part.LIBRARY}.dir/{os.path.relpath(path, part.FOLDER)}.o",
@@ -129,7 +130,7 @@ def broken(copy, part, path, text):
 
 
 def inject(copy, part, fault):
-    """Results of the tests on the copy with the fault."""
+    """Results of the tests on the copy with one fault."""
     what, path, old, new = fault
     kept = f"{copy.work}/{re.sub('[^a-z]+', '-', what.lower())}.json"
     result = kept_result(kept, fault)
@@ -137,7 +138,7 @@ def inject(copy, part, fault):
         return result
     text = open(f"{copy.tree}/{path}", encoding="utf-8").read()
     if text.count(old) != 1:
-        raise SystemExit(f"{path} no longer has, once: {old}")
+        raise SystemExit(f"{path} must contain this code exactly once: {old}")
     with broken(copy, part, path, text.replace(old, new)):
         groups = part.noticed(copy, path)
     result = {"what": what, "file": path, "fault": mark_of(fault), "commit": copy.commit,

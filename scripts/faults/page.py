@@ -1,4 +1,4 @@
-"""Faults in the page of grseg-explore: what it is given, what it computes of it, and what it shows."""
+"""Faults in the page of grseg-explore: in its data, in its computations, and in its display."""
 import os
 import re
 
@@ -62,7 +62,7 @@ FAULTS = [
     ("address: of a link to several runs the first is shown", PAGE + "address.js", "if (page.fits[run])", "if (false)"),
     ("captions: a line without its piece", PAGE + "report.js",
      '["z_S", "small", "small grains"], ["z_L", "large", "large grains"]', '["z_S", "small", "small grains"], ["z_L", "large"]'),
-    ("captions: a look that nothing is drawn in", PAGE + "scatter.js", '["neutral", "each its share"]', '["zero", "each its share"]'),
+    ("captions: a look that nothing is drawn in", PAGE + "scatter.js", '["neutral", "equal shares"]', '["zero", "equal shares"]'),
     ("numbers: two that differ read alike", PAGE + "format.js", "?? written[0]", "&& written[0]"),
     ("address: the time is not in it", PAGE + "address.js", "if (Number.isFinite(time)) page.transport", "if (!time) page.transport"),
     ("address: each choice is a step to go back by", PAGE + "address.js", "window.history.replaceState", "window.history.pushState"),
@@ -81,14 +81,14 @@ FAULTS = [
 ]
 ARGUED = set()
 LIBRARY = "grseg_explore"
-FOLDER = "analysis/explore"  # of the library
+FOLDER = "analysis/explore"  # folder of the library
 TOOLS = ["explore", "report", "stress", "kinetic", "micro", "balance", "segregation", "fit", "check", "sim", "import"]
 TARGETS = [f"grseg-{tool}" for tool in TOOLS] + ["analysis_explore_test"]
 OPTIONS = ["-DCMAKE_CXX_FLAGS_RELEASE=-O1"]
 
 
 def in_the_browser(copy):
-    """The check of the page's test that fails, and what it says."""
+    """Name of the failing check of the page's test, or its last line of output; [] if the test passes."""
     copy.must_build(TARGETS)
     done = run_quietly(["/usr/bin/python3", "-B", f"{copy.tree}/tests/tools/explore_page_test.py", copy.bin,
                         f"{copy.tree}/data/sample/chute.h5"])

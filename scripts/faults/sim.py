@@ -1,8 +1,8 @@
-"""Faults in sim/ and what may notice them: hard cases and unit tests, each a program of its own."""
+"""Faults in sim/ and the tests that may detect them: hard cases and unit tests, each a separate program."""
 import concurrent.futures
 import os
 
-# Faults: (description, file, code that stands there, code that takes its place).
+# Faults: (description, file, code in the file, code that replaces it).
 FAULTS = [
     ("sign: the partner is pushed the same way", "sim/contact/contact_law-inl.hpp",
      "b.vy = b.vy - weight_b * p.py;", "b.vy = b.vy + weight_b * p.py;"),
@@ -13,8 +13,8 @@ FAULTS = [
     ("sign: both grains are turned the wrong way outside sweeps", "sim/contact/bodies-inl.hpp",
      "Bodies<D>{px, py, hn::Neg(spin), hn::Zero(d)}", "Bodies<D>{px, py, spin, hn::Zero(d)}"),
     ("clamp: contacts may pull", "sim/contact/contact_law-inl.hpp",
-     "  return number<V>(0);\n}\n/// The impulse along t",
-     "  return number<V>(-1e300);\n}\n/// The impulse along t"),
+     "  return number<V>(0);\n}\n/// Tangential impulse",
+     "  return number<V>(-1e300);\n}\n/// Tangential impulse"),
     ("clamp: friction is limited to one side only", "sim/contact/contact_law-inl.hpp",
      "return {minus(limit), limit};", "return {number<V>(-1e300), limit};"),
     ("clamp: friction is limited by the impulse of the sweep before", "sim/contact/contact_law-inl.hpp",
@@ -86,7 +86,7 @@ FAULTS = [
      "std::max({sums.fastest_approach, unlisted, unlisted_ahead(spread)})",
      "std::max(sums.fastest_approach, unlisted)"),
     ("steps in parts: the list of the step that was too long stays", "sim/step/simulation.cpp",
-     "  renew_pairs(0);    // where", "  // where"),
+     "  renew_pairs(0);    // at", "  // at"),
     ("steps in parts: unlisted grains do not count", "sim/step/simulation.cpp",
      "    unlisted = pairs_.fastest_unlisted(state_.motion);\n", ""),
     ("steps in parts: listed pairs that do not act yet may pass each other", "sim/step/simulation.cpp",
@@ -181,12 +181,12 @@ FAULTS = [
 
 ARGUED = set()
 LIBRARY = "grseg_simulator"
-FOLDER = "sim"  # of the library
+FOLDER = "sim"  # folder of the library
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
         "invariances", "newcomer", "extremes", "slopes"]
 UNIT = ["contact_law", "sweep", "single_contacts", "solver", "wavefront", "detection", "pair_list", "simulation", "restart",
         "divided_step", "effects", "energy_balance", "boundary_body", "wedged_grains"]
-# It stops the processor after every instruction, for minutes: it is asked where no other test notices.
+# This test stops the processor after every instruction and takes minutes, so it runs only if no other test fails.
 SLOW, SLOW_SECONDS = "left_out_test", 300
 OPTIONS = []
 QUICK = [f"{name}_test" for name in HARD + UNIT]
@@ -194,7 +194,7 @@ TARGETS = [*QUICK, SLOW]
 
 
 def noticed(copy, _=None):
-    """Names of the tests that fail, of the hard cases and of the others."""
+    """Names of the failing tests: of the hard cases, and of the unit tests."""
     with concurrent.futures.ThreadPoolExecutor(copy.jobs) as pool:
         found = dict(zip(QUICK, pool.map(copy.failures, QUICK)))
     of = lambda names: sum((found[f"{name}_test"] for name in names), [])
@@ -203,7 +203,7 @@ def noticed(copy, _=None):
 
 
 def sound(copy):
-    """Tests that fail without a fault; the slow one is asked here, too, as no other notices anything."""
+    """Names of tests that fail without a fault. The slow test runs here, too, if no other test fails."""
     return sum(noticed(copy).values(), [])
 
 

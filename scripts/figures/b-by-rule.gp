@@ -1,5 +1,5 @@
-# B over the share p of a mixed contact, one curve with its 95 % band for each mixture, and B under three rules of published
-# codes, of FOLDER/scan-*.tsv and FOLDER/rules.tsv (scripts/reproduce/campaign mixtures):
+# Left: B over the large grain's share p of a mixed contact, a curve with its 95 % band for each mixture. Right: B under three
+# rules of published codes. From FOLDER/scan-*.tsv and FOLDER/rules.tsv (scripts/reproduce/campaign mixtures):
 #   gnuplot -c scripts/figures/b-by-rule.gp FOLDER b-by-rule.png
 load ARG0[:strstrt(ARG0, "b-by-rule.gp") - 1]."names.gp"
 folder = named(ARG1)

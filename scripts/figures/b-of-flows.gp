@@ -1,5 +1,5 @@
-# B by size and -B_kappa with 95 % intervals: by mixture, by slope and by stage, of FOLDER/fits.tsv
-# (scripts/reproduce/campaign fits):
+# B by size and -B_kappa with 95 % intervals, by mixture, by slope and by stage of segregation, from
+# FOLDER/fits.tsv (scripts/reproduce/campaign fits):
 #   gnuplot -c scripts/figures/b-of-flows.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "b-of-flows.gp") - 1]."names.gp"
 eval figure("b-of-flows", 1300, 800, 12)

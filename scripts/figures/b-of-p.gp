@@ -1,17 +1,20 @@
-# B over the share p of a mixed contact that goes to its large grain, with its 95 % band, from
-# FOLDER/scan.tsv, with the line of neutral contacts and, if FOLDER/stock.tsv exists (grseg-fit
-# --partition stock), the rules of published codes; below: the difference from neutral contacts:
+# Top: B over the large grain's share p of a mixed contact, with its 95 % band, from FOLDER/scan.tsv, and
+# B of neutral contacts. If FOLDER/stock.tsv exists (grseg-fit --partition stock), also the rules of
+# published codes. Bottom: B minus B of neutral contacts.
 #   gnuplot -c scripts/figures/b-of-p.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "b-of-p.gp") - 1]."names.gp"
-eval figure("b-of-p", 900, 900, 12)
+folder = named(ARG1)
 scan = folder."/scan.tsv"
 stock = folder."/stock.tsv"
 marked = system("test -f ".quoted(stock)." && echo yes") eq "yes"
 same_runs = system("cat ".quoted(scan)." ".quoted(stock)." | awk '/^# input: / {n[$0]++} END {for (run in n) if (n[run] != 2) other = 1; print other ? \"no\" : \"yes\"}'")
-if (marked && same_runs eq "no") { system("echo 'b-of-p.gp: scan.tsv and stock.tsv of ".folder." are of different runs; make both of the same tables' >&2"); exit status 1 }
+if (marked && same_runs eq "no") { system("echo 'b-of-p.gp: scan.tsv and stock.tsv of ".folder." are of different runs; make both from the same tables' >&2"); exit status 1 }
 cell(rule, quantity) = marked ? number_of(stock, rule, quantity) : NaN
 rules = "size contact-point half"
 p_zero = real(system("awk '/^# p_zero:/ {print $3}' ".quoted(scan)))
+
+# The picture is begun after the checks, so that a refusal keeps an earlier picture.
+eval figure("b-of-p", 900, 900, 12)
 
 set xlabel "share p of a mixed contact given to its large grain"
 set xzeroaxis

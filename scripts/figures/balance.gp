@@ -1,8 +1,8 @@
-# Forces on the large grains by mechanism, over height, from FOLDER/balance-profile.tsv:
+# Forces on the large grains, by mechanism, over height, from FOLDER/balance-profile.tsv:
 #   scripts/profile --balance FOLDER/balance.tsv > FOLDER/balance-profile.tsv
 #   gnuplot -c scripts/figures/balance.gp FOLDER [PICTURE]
-# Left: forces on the large grains in units of their weight. Right: the B and -B_kappa behind them, with the
-# values of Staron & Phillips (2015) dashed. Bars are standard errors over windows.
+# Left: forces on the large grains in units of their weight. Right: B and -B_kappa, from which these forces
+# follow; dashed are the values of Staron & Phillips (2015). Bars are standard errors over windows.
 load ARG0[:strstrt(ARG0, "balance.gp") - 1]."names.gp"
 eval figure("balance", 1100, 700, 13)
 profile = folder."/balance-profile.tsv"

@@ -1,5 +1,5 @@
-# Coefficients of Gray & Thornton's closure from the flux of large grains, by mixture, and the coefficient c over the share p of
-# a mixed contact, from closures.tsv (scripts/reproduce/campaign closures):
+# Left: coefficient c of Gray & Thornton's closure over the large grain's share p of a mixed contact, a line for each mixture.
+# Right: B/c and d/c from the flux of large grains, by mixture. From closures.tsv (scripts/reproduce/campaign closures):
 #   gnuplot -c scripts/figures/c-of-p.gp closures.tsv c-of-p.png
 load ARG0[:strstrt(ARG0, "c-of-p.gp") - 1]."names.gp"
 table = named(ARG1)

@@ -1,4 +1,5 @@
-# The paper's numbers met by each choice, from FOLDER/combined.tsv (scripts/reproduce/campaign combinations --figure).
+# Share of the combinations with each choice that meet each number of Staron & Phillips (2015), from FOLDER/combined.tsv
+# (scripts/reproduce/campaign combinations --figure).
 #   gnuplot -c scripts/figures/combinations.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "combinations.gp") - 1]."names.gp"
 eval figure("combinations", 1100, 760, 12)

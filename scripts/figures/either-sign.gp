@@ -1,6 +1,6 @@
-# The picture of README.md: B over the share p of a mixed contact that goes to its large grain, with
-# the rules of published codes and the paper's values; right, B by size of each mixture. FOLDER holds
-# scan.tsv, stock.tsv and fits.tsv, as make -C scripts reproduction.md leaves them in
+# The picture of README.md. Left: B over the large grain's share p of a mixed contact, with the rules of
+# published codes and the values of Staron & Phillips (2015). Right: B by size of each mixture. The
+# folder needs scan.tsv, stock.tsv and fits.tsv, which make -C scripts reproduction.md writes into
 # reproduction-figures:
 #   gnuplot -c scripts/figures/either-sign.gp reproduction-figures docs/figures/either-sign.png
 load ARG0[:strstrt(ARG0, "either-sign.gp") - 1]."names.gp"

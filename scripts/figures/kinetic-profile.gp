@@ -1,7 +1,7 @@
-# Kinetic pressure over height, time mean, for both definitions of the fluctuation, and its ratio to the
+# Mean kinetic pressure over height, for both definitions of the fluctuation, and its ratio to the
 # contact stress, from FOLDER/profile.tsv (scripts/profile with --kinetic):
 #   gnuplot -c scripts/figures/kinetic-profile.gp FOLDER [PICTURE]
-# Per area of grains, in units of rho g d_S, beside the paper's fit (Staron & Phillips 2015, figure 3a).
+# Per area of grains, in units of rho g d_S, with the fit of Staron & Phillips (2015, figure 3a).
 load ARG0[:strstrt(ARG0, "kinetic-profile.gp") - 1]."names.gp"
 eval figure("kinetic-profile", 1200, 600, 12)
 profile = folder."/profile.tsv"

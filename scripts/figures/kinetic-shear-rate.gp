@@ -1,5 +1,5 @@
-# -B_kappa over the mean shear rate of the flows of phi_L = 0.45 at 21 to 26 degrees, of FOLDER/flows.tsv
-# (scripts/reproduce/campaign flows), beside the paper's trend (Staron & Phillips 2015, figure 4):
+# -B_kappa over the mean shear rate of the flows of phi_L = 0.45 at 21 to 26 degrees, from FOLDER/flows.tsv
+# (scripts/reproduce/campaign flows), with the line of Staron & Phillips (2015, figure 4):
 #   gnuplot -c scripts/figures/kinetic-shear-rate.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "kinetic-shear-rate.gp") - 1]."names.gp"
 eval figure("kinetic-shear-rate", 900, 700, 13)

@@ -1,7 +1,8 @@
-# A field of a map: TABLE is what grseg-stress or grseg-kinetic print with --bins xy, xz or rz, FIELD
-# the name of a column without its unit, WINDOW the number of a window from 0 (default: the last).
+# A field of a map in colours. TABLE: output of grseg-stress or grseg-kinetic with --bins xy, xz or rz.
+# FIELD: name of a column without its unit. WINDOW: number of a window from 0 (default: the last window).
 #   gnuplot -c scripts/figures/map.gp TABLE FIELD PICTURE.png [WINDOW [LOWEST HIGHEST]]
-# Scales are equal. Cells without grains and contacts are white. LOWEST and HIGHEST end the colour bar.
+# Both axes have the same scale. Cells without grains and contacts are white. LOWEST and HIGHEST are the
+# ends of the colour bar.
 load ARG0[:strstrt(ARG0, "map.gp") - 1]."names.gp"
 table = named(ARG1)
 line(pattern) = system("sed -n '/".pattern."/{p;q}' ".quoted(table))
@@ -31,7 +32,7 @@ stats table using 5:6 every ::from::to name "Y" nooutput
 width = X_max_y - X_min_x
 height = Y_max_y - Y_min_x
 
-# Room for labels and the colour bar beside the map.
+# Space for labels and the colour bar around the map.
 scale = 600.0 / (width > height ? width : height)
 across = width * scale + 220
 up = height * scale + 110
@@ -42,7 +43,7 @@ set yrange [Y_min_x:Y_max_y]
 set xlabel plain(column_name(3))[1:1]." [m]"
 set ylabel plain(column_name(5))[1:1]." [m]"
 set tics out nomirror
-# A label every 70 pixels or more.
+# Labels are at least 70 pixels apart.
 power(step) = 10.0**floor(log10(step))
 round_step(step) = power(step) * (step <= power(step) ? 1 : step <= 2 * power(step) ? 2 : step <= 5 * power(step) ? 5 : 10)
 set xtics round_step(70 / scale)
@@ -52,7 +53,7 @@ set title sprintf("%g to %g s", T_min_x, T_max_y)
 set palette defined (0 "#440154", 1 "#414487", 2 "#2a788e", 3 "#22a884", 4 "#7ad151", 5 "#fde725")
 if (ARGC > 5) { set cbrange [real(ARG5):real(ARG6)] }
 set key off
-# In cells without grains nu is 0, or u is nan.
+# A cell without grains has nu = 0, or u = nan.
 of_grains = column_of("nu") > 0 ? column_of("nu") : column_of("u")
 shown(value, grains) = value == 0 && !(grains != 0 && grains == grains) ? NaN : value
 plot table using (($3 + $4) / 2):(($5 + $6) / 2):(shown(column(found), column(of_grains))) every ::from::to with image

@@ -1,5 +1,5 @@
 # Height of the large grains, contacts per grain and mean forces of the whole bed over time (Staron &
-# Phillips 2015, figure 6), of FOLDER/time.tsv (grseg-derive):
+# Phillips 2015, figure 6), from FOLDER/time.tsv (grseg-derive):
 #   gnuplot -c scripts/figures/micro-over-time.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "micro-over-time.gp") - 1]."names.gp"
 eval figure("micro-over-time", 1200, 900, 12)
@@ -7,7 +7,7 @@ time = folder."/time.tsv"
 set datafile missing NaN
 set multiplot layout 2,2
 set key top right samplen 2
-# Rows of the whole bed have no heights of a layer.
+# Rows of the whole bed have nan in place of the heights of a layer.
 bed(value) = stringcolumn("y0[m]") eq "nan" ? value : NaN
 middle(dummy) = (column("t0[s]") + column("t1[s]")) / 2
 set xlabel "t (s)"

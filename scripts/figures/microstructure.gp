@@ -1,5 +1,5 @@
-# The micro-structure beyond figures 5 and 6 of Staron & Phillips (2015): B from it, fabric and forces by type
-# of contact, from the tables that docs/studies/microstructure.md makes in FOLDER: paper.tsv, ends.tsv, forces.tsv.
+# Micro-structure beyond figures 5 and 6 of Staron & Phillips (2015): B from contacts and mean forces, fabric and forces
+# by type of contact. From FOLDER/paper.tsv, ends.tsv and forces.tsv, made as docs/studies/microstructure.md says.
 #   gnuplot -c scripts/figures/microstructure.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "microstructure.gp") - 1]."names.gp"
 eval figure("microstructure", 1500, 450, 11)

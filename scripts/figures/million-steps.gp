@@ -1,4 +1,4 @@
-# Mean overlap and energy defect of the chute over a million steps at 21 and 26 degrees, of
+# Mean overlap and energy defect of the chute over a million steps at 21 and 26 degrees, from
 # FOLDER/million-steps-21.tsv and -26.tsv:
 #   GRSEG_HARD_CASES=FOLDER build/bin/million_steps_test
 #   gnuplot -c scripts/figures/million-steps.gp FOLDER [PICTURE]

@@ -1,5 +1,5 @@
-# Share of mixed contacts against composition, for every layer and window of FOLDER/micro.tsv, and the
-# neutral model's curve (Staron & Phillips 2015, figure 2c):
+# Share of mixed contacts over composition, for every layer and window of FOLDER/micro.tsv, and the curve
+# of neutral contacts (Staron & Phillips 2015, figure 2c):
 #   gnuplot -c scripts/figures/mixed-share.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "mixed-share.gp") - 1]."names.gp"
 eval figure("mixed-share", 900, 700, 13)

@@ -1,5 +1,5 @@
-# p*, the share of a mixed contact at which pressure goes by volume (B = 0), by mixture with 95 % intervals over runs, beside the
-# mean share that the rule `size` gives, of FOLDER/rules.tsv (scripts/reproduce/campaign mixtures):
+# p*, the large grain's share of a mixed contact at which B = 0 (stress in proportion to volume), by mixture with 95 % intervals
+# over runs, and the mean share by the rule `size`. From FOLDER/rules.tsv (scripts/reproduce/campaign mixtures):
 #   gnuplot -c scripts/figures/p-star.gp FOLDER p-star.png
 load ARG0[:strstrt(ARG0, "p-star.gp") - 1]."names.gp"
 rules = named(ARG1)."/rules.tsv"

@@ -1,5 +1,5 @@
-# Errors of the pressures that contacts per grain and mean forces give, over composition (Staron & Phillips
-# 2015, figure 5), of FOLDER/paper.tsv and ends.tsv, as docs/studies/microstructure.md makes them:
+# Errors of the pressures estimated from contacts per grain and mean forces, over composition (Staron & Phillips
+# 2015, figure 5). From FOLDER/paper.tsv and ends.tsv, made as docs/studies/microstructure.md says:
 #   gnuplot -c scripts/figures/pressure-estimates.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "pressure-estimates.gp") - 1]."names.gp"
 eval figure("pressure-estimates", 900, 700, 13)

@@ -1,7 +1,7 @@
-# Pressure of the contacts over height, time mean, of FOLDER/profile.tsv (scripts/profile):
+# Mean pressure of the contacts over height, from FOLDER/profile.tsv (scripts/profile):
 #   gnuplot -c scripts/figures/pressure-profile.gp FOLDER [PICTURE]
-# Bulk pressure (voids included) and pressure per area of grains, in units of rho g d_S with rho = 1
-# kg/m^2, against the weight of the grains above (Staron & Phillips 2015, figure 2a).
+# Pressure per bulk volume (voids included) and per area of grains, in units of rho g d_S with rho = 1
+# kg/m^2, with the weight of the grains above (Staron & Phillips 2015, figure 2a).
 load ARG0[:strstrt(ARG0, "pressure-profile.gp") - 1]."names.gp"
 eval figure("pressure-profile", 900, 700, 13)
 profile = folder."/profile.tsv"

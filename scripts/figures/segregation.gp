@@ -1,17 +1,19 @@
-# Segregation of a bed, from FOLDER/segregation.tsv (grseg-segregation) and FOLDER/segregation-summary.tsv
-# (the same with --summary, and the same --begin): heights of the large grains and mixing index over
-# time with the exponential fit, diffusivities over height, flux of large grains over composition.
+# Segregation of a bed: height of the large grains and mixing index over time with the exponential fit,
+# diffusivities over height, flux of large grains over composition. From FOLDER/segregation.tsv
+# (grseg-segregation) and FOLDER/segregation-summary.tsv (with --summary and the same --begin):
 #   gnuplot -c scripts/figures/segregation.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "segregation.gp") - 1]."names.gp"
-eval figure("segregation", 1500, 500, 12)
+folder = named(ARG1)
 table = folder."/segregation.tsv"
 number(name) = real(system("awk -F '\\t' '$1 == \"".name."\" {print $2}' ".quoted(folder."/segregation-summary.tsv")))
 header(name) = real(system("awk '$2 == \"".name.":\" {print $3; exit}' ".quoted(table)))
 begin = real(system("awk -F '\\t' '!/^#/ && ++n == 2 {print $1; exit}' ".quoted(table)))
 d = header("small_diameter")
 start = number("y_L_start[m]"); end = number("y_L_end[m]"); tau = number("tau[s]")
+# The picture is begun after the tables are read, so that a missing table keeps an earlier picture.
+eval figure("segregation", 1500, 500, 12)
 set datafile missing NaN
-# Rows of the whole bed have y0 = nan; they are read apart from rows of layers.
+# Rows of the whole bed have y0 = nan; they are read separately from rows of layers.
 rows(test) = "< awk -F '\\t' '!/^#/ && (!n++ || $3 ".test." \"nan\")' ".quoted(table)
 set multiplot layout 1,3
 middle(dummy) = (column("t0[s]") + column("t1[s]")) / 2
@@ -29,7 +31,7 @@ plot rows("==") using (middle(0)):(column("yL[m]") / d) with points pt 7 ps 0.6 
 unset y2tics
 unset y2label
 set ytics mirror
-# Means over windows: "smooth unique" takes the mean of equal x.
+# Means over windows: "smooth unique" plots the mean of all points with the same x.
 set xlabel "y / d_S"
 set ylabel "D / (|du/dy| d^2)"
 set yrange [0:0.3]
@@ -43,7 +45,7 @@ set xlabel "φ_L"
 set ylabel "flux of large grains (mm/s)"
 set yrange [-0.5:2]
 set xrange [0:1]
-# Without the lowest layer, where the base holds large grains.
+# The lowest layer is left out, because its large grains are trapped by the base.
 bin(name) = column("y0[m]") > 0 && solid(name) > 0 ? (floor(column(name) / 0.05) + 0.5) * 0.05 : NaN
 S = number("S[m/s]")
 segregation(dummy) = 1e3 * (solid("q_L[m/s]") + solid("D[m^2/s]") * solid("dphi_dy[1/m]"))

@@ -1,5 +1,4 @@
-# The grains at the instants of FOLDER/snapshots.tsv, one picture beside the other
-# (Staron & Phillips 2015, figure 1):
+# The grains in each frame of FOLDER/snapshots.tsv, side by side (Staron & Phillips 2015, figure 1):
 #   gnuplot -c scripts/figures/snapshots.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "snapshots.gp") - 1]."names.gp"
 folder = named(ARG1)

@@ -1,11 +1,11 @@
-# Contacts per grain, mean force and their product over the time step: whole bed of phi_L = 0.45 at 23 degrees
-# from 10 to 60 s, of FOLDER/flows.tsv (scripts/reproduce/campaign flows):
+# Contacts per grain, mean force and their product over the time step, for the whole bed of phi_L = 0.45 at 23
+# degrees from 10 to 60 s. From FOLDER/flows.tsv (scripts/reproduce/campaign flows):
 #   gnuplot -c scripts/figures/step.gp FOLDER [PICTURE]
 load ARG0[:strstrt(ARG0, "step.gp") - 1]."names.gp"
 eval figure("step", 1400, 480, 12)
 flows = folder."/flows.tsv"
 set multiplot layout 1,3
-# Flows that differ only in step and accuracy.
+# Selects the flows that differ only in time step and accuracy.
 steps(value) = column("phi") == 0.45 && column("slope") == 23 && strstrt("none draft reference step0.000125", stringcolumn("variant")) ? value : NaN
 set xlabel "step (10^{-4} s)"
 set xrange [0:5]

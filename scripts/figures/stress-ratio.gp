@@ -1,7 +1,8 @@
-# sigma^S_yy / sigma^L_yy against phi_S/phi_L, mixed contacts shared by size: the layers and windows of FOLDER/stress.tsv that
-# the fit of FOLDER/fit.tsv took, and its line (Staron & Phillips 2015, figure 2b):
+# sigma^S_yy / sigma^L_yy over phi_S/phi_L by the rule size: the layers and windows of FOLDER/stress.tsv that the fit in
+# FOLDER/fit.tsv used, and the line of the fit (Staron & Phillips 2015, figure 2b):
 #   gnuplot -c scripts/figures/stress-ratio.gp FOLDER [PICTURE]
-# or of the kinetic stress, of FOLDER/kinetic.tsv and kinetic-fit.tsv, into kinetic-ratio.png (figure 3b), with the lowest layer beside:
+# The same for the kinetic stress and for the lowest layer, from FOLDER/kinetic.tsv and kinetic-fit.tsv, into kinetic-ratio.png
+# (figure 3b):
 #   gnuplot -c scripts/figures/stress-ratio.gp FOLDER kinetic [PICTURE]
 load ARG0[:strstrt(ARG0, "stress-ratio.gp") - 1]."names.gp"
 folder = named(ARG1)
@@ -12,7 +13,7 @@ slope = number_of(fit, kinetic ? "kinetic" : "size", "paper_s")
 set datafile separator tab
 taken = "< ".quoted(named(ARG0[:strstrt(ARG0, "stress-ratio.gp") - 1]."fit-points"))." ".quoted(fit)." ".quoted(sums)
 if (system(taken[3:]." >/dev/null && echo yes") ne "yes") { exit status 1 }
-lowest = taken.(kinetic ? " --left-out" : "") # gnuplot reads it where it draws nothing of it, too
+lowest = taken.(kinetic ? " --left-out" : "") # gnuplot reads this table even if it draws nothing of it
 eval picture(asked(kinetic ? "ARG3" : "ARG2", folder.(kinetic ? "/kinetic-ratio.png" : "/stress-ratio.png")), 900, 700, 13, "")
 set logscale xy
 set format xy "10^{%T}"

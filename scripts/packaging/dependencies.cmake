@@ -1,5 +1,5 @@
-# The packages that grseg builds with. Everything that depends on their versions, or on how they are
-# linked, stands here. docs/guide/install.md has the table of packages.
+# Packages that grseg needs, and everything that depends on their versions or on how they are linked.
+# docs/guide/install.md has the table of packages.
 set(HDF5_USE_STATIC_LIBRARIES ${GRSEG_STATIC})
 set(Boost_USE_STATIC_LIBS ${GRSEG_STATIC})
 if(GRSEG_STATIC)
@@ -10,11 +10,11 @@ endif()
 find_package(HDF5 REQUIRED COMPONENTS C HL)
 find_package(Boost 1.74 REQUIRED CONFIG COMPONENTS program_options iostreams)
 find_package(Eigen3 REQUIRED NO_MODULE)
-# HDF5 2 and Eigen 5 refuse to be found by those who ask for "1.10 or newer" and "3.4 or newer".
+# find_package() gets no versions, since HDF5 2 and Eigen 5 reject requests for "1.10 or newer" and "3.4 or newer".
 if(HDF5_VERSION VERSION_LESS 1.10 OR Eigen3_VERSION VERSION_LESS 3.4)
   message(FATAL_ERROR "HDF5 ${HDF5_VERSION} or Eigen ${Eigen3_VERSION} is too old: install HDF5 1.10 and Eigen 3.4, or newer")
 endif()
-# HDF5's definitions are for all targets: precompiled headers serve only targets that have the same ones.
+# All targets get HDF5's definitions, because targets that share precompiled headers need equal definitions.
 set(GRSEG_DEFINITIONS ${HDF5_C_DEFINITIONS})
 foreach(library ${HDF5_C_LIBRARIES})
   if(TARGET ${library})
@@ -37,11 +37,11 @@ foreach(library XXHASH LIBDEFLATE ZSTD)
   if(NOT ${library}_INCLUDE_DIR OR NOT ${library}_LIBRARY)
     string(TOLOWER ${library} name)
     string(REGEX REPLACE "^(lib)?" "lib" name ${name})
-    message(FATAL_ERROR "${name} is missing: install the Debian package ${name}-dev, or an equal one")
+    message(FATAL_ERROR "${name} is missing: install the Debian package ${name}-dev, or an equivalent one")
   endif()
 endforeach()
 
-# The packages as targets, where they have none of their own or where GRSEG_STATIC changes them.
+# Targets for packages that define none themselves, or that GRSEG_STATIC changes.
 add_library(grseg_hdf5 INTERFACE)
 target_include_directories(grseg_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(grseg_hdf5 INTERFACE ${HDF5_C_HL_LIBRARIES} ${HDF5_C_LIBRARIES})
@@ -55,10 +55,10 @@ add_library(grseg_xxhash INTERFACE)
 target_include_directories(grseg_xxhash SYSTEM INTERFACE ${XXHASH_INCLUDE_DIR})
 add_library(grseg_fmt INTERFACE)
 if(GRSEG_STATIC)
-  # Boost's targets do not know what its archive of streams needs.
+  # Boost's targets do not list the libraries that its static iostreams library needs.
   set_property(TARGET Boost::iostreams APPEND PROPERTY INTERFACE_LINK_LIBRARIES zstd lzma bz2 z)
-  # FindHDF5 does not know that libsz.a needs libaec.a. Debian's libxxhash.a lacks functions that its
-  # headers promise, and there are no libfmt.a and no libhwy.a.
+  # FindHDF5 does not list libaec.a, which libsz.a needs. Debian's libxxhash.a lacks functions that its
+  # headers declare, and Debian has no libfmt.a and no libhwy.a.
   target_link_libraries(grseg_hdf5 INTERFACE aec)
   target_compile_definitions(grseg_xxhash INTERFACE XXH_INLINE_ALL)
   target_link_libraries(grseg_fmt INTERFACE fmt::fmt-header-only)
@@ -72,8 +72,8 @@ else()
   target_link_libraries(grseg_highway INTERFACE hwy::hwy)
 endif()
 
-# grseg_leaf(OPTION programs packages FOUND...): programs that nothing else needs. OPTION is ON, OFF, or
-# AUTO: built if all variables FOUND are true. Sets OPTION_BUILT.
+# grseg_leaf(OPTION programs packages FOUND...): defines OPTION for programs that no other target needs.
+# OPTION is ON, OFF, or AUTO (build if all variables FOUND are true). Sets OPTION_BUILT.
 function(grseg_leaf option programs packages)
   set(found ON)
   foreach(variable ${ARGN})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Three functions of Highway's library (hwy/targets.h). Static programs need them here, because
-// Debian has no archive of that library.
+// Three functions of the library Highway (hwy/targets.h), for static programs, because Debian has
+// no static library of Highway.
 #include "sim/contact/targets.hpp"
 
 #include <hwy/highway.h>
@@ -8,9 +8,9 @@
 namespace hwy {
 namespace {
 
-std::int64_t only = 0;  // the sets that a user allows; 0: all
+std::int64_t only = 0;  // bits of the instruction sets that a user allows; 0: all
 
-/// The sets of this processor, with what Highway's code uses of each.
+/// Bits of the instruction sets of this processor that have all features which Highway uses.
 std::int64_t detected()
 {
   std::int64_t targets = HWY_SCALAR | HWY_STATIC_TARGET;

@@ -1,5 +1,5 @@
-# Files of `cmake --install`, and the Debian package that `cpack` makes of them (docs/guide/install.md).
-# Manual pages and completions are made by the programs themselves, from their tables of options.
+# Files that `cmake --install` installs, and the Debian package that `cpack` makes of them
+# (docs/guide/install.md). The programs print their manual pages and completions from their tables of options.
 include(GNUInstallDirs)
 set(GRSEG_PROGRAMS grseg-sim ${GRSEG_FORMAT_TOOLS} ${GRSEG_TOOLS})
 install(TARGETS ${GRSEG_PROGRAMS} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -8,7 +8,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff
 install(FILES ${PROJECT_SOURCE_DIR}/formats/README.md TYPE DOC RENAME file-format.md)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE TYPE DOC RENAME copyright)
 
-# grseg_printed(FILE PROGRAM OPTION ...): what a program prints, as a file that `all` makes.
+# grseg_printed(FILE PROGRAM OPTION ...): makes FILE from the standard output of a program, as part of `all`.
 set(GRSEG_PRINTED "")
 function(grseg_printed file program)
   add_custom_command(
@@ -38,13 +38,14 @@ foreach(program ${GRSEG_PROGRAMS})
 endforeach()
 add_custom_target(grseg_printed ALL DEPENDS ${GRSEG_PRINTED})
 
-# Listed by name: the folders may still hold files of former programs. Also for `--component manuals`.
+# Files are listed by name, since the folders may still contain files of former programs.
+# `--component manuals` installs them alone.
 list(TRANSFORM GRSEG_PROGRAMS PREPEND ${PROJECT_BINARY_DIR}/completions/bash/ OUTPUT_VARIABLE for_bash)
 list(TRANSFORM GRSEG_PROGRAMS PREPEND ${PROJECT_BINARY_DIR}/completions/zsh/_ OUTPUT_VARIABLE for_zsh)
 list(TRANSFORM GRSEG_PROGRAMS REPLACE "(.+)" "${PROJECT_BINARY_DIR}/man/\\1.1" OUTPUT_VARIABLE manual_pages)
 install(FILES ${for_bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         COMPONENT manuals)
-# Debian's zsh looks into the first below /usr/local, into the second below /usr.
+# Debian's zsh searches site-functions below /usr/local and vendor-completions below /usr.
 foreach(folder site-functions vendor-completions)
   install(FILES ${for_zsh} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder} COMPONENT manuals)
 endforeach()

@@ -1,6 +1,6 @@
-"""Invariants that hold to round-off for any step, tolerance and number of sweeps: nothing excuses a breach.
+"""Invariants that are true to round-off for any step, tolerance and number of sweeps; no warning excuses a violation.
 
-Each function yields findings: measured must not exceed the bound. Bounds are Trajectory.round_off, or 0.
+Each function yields Findings; the measured value must not exceed the bound. Bounds are Trajectory.round_off, or 0.
 """
 import collections
 
@@ -10,7 +10,7 @@ Finding = collections.namedtuple("Finding", "name measured bound place")
 
 
 def worst(name, values, bound, run):
-    """The finding of the frame with the largest value. What is not a number counts as infinite."""
+    """The Finding of the frame with the largest value; NaN counts as infinite."""
     values = np.where(np.isfinite(values), values, np.inf)
     if len(values) == 0:
         return Finding(name, 0.0, bound, "")
@@ -31,35 +31,34 @@ def numbers(run):
 
 
 def kinematics(run):
-    """A mobile grain moves with its velocity from the middle of one step to the middle of the next; nothing else
-    displaces it."""
+    """A mobile grain moves only with its velocity, from the middle of one step to the middle of the next."""
     duration = (run.part[:-1] + run.part[1:]) / 2
     moved = np.diff(run.position, axis=0) - duration[:, None, None] * run.velocity[:-1]
     error = np.abs(moved[:, run.mobile]).max(axis=(1, 2)) / run.size
-    # Positions in single precision: 6e-8 of the cell.
+    # Positions have single precision: 6e-8 of the cell.
     yield worst("positions follow velocities", np.where(run.follows[1:], error, 0), run.round_off / 100, run)
 
 
 def momentum(run):
-    """Newton's second law of each mobile grain, from forces of contacts and gravity; and the change of its
-    velocity since the frame before."""
+    """Newton's second law of each mobile grain: its force is the sum of contact forces and weight, and the force
+    explains the change of velocity since the frame before."""
     balance = run.mass[:, None] * run.gravity[:, None, :] - run.force
     np.add.at(balance, (run.frame_of, run.i), run.contact_force)
     both = run.j >= 0
     np.add.at(balance, (run.frame_of[both], run.j[both]), -run.contact_force[both])
     error = np.linalg.norm(balance[:, run.mobile], axis=2).max(axis=1) / run.largest_force
-    # On their way sweeps pass impulses that are up to `friction` times those they end with.
+    # During the sweeps impulses are up to `friction` times as large as their final values.
     yield worst("forces on a grain", error, run.round_off * max(1, run.number("friction")), run)
     jump = (run.before[1:] - run.velocity[:-1])[:, run.mobile]
     fastest = np.abs(run.velocity[:, run.mobile]).max(axis=(1, 2))
-    # Round-off of velocities, and of a force over a step.
+    # Scale of the round-off of velocities, and of a force over a step.
     unit = fastest[1:] + fastest[:-1] + (run.largest_force * run.part)[1:] / run.mass[run.mobile].min() + 1e-300
     error = np.abs(jump).max(axis=(1, 2)) / unit
     yield worst("velocities follow forces", np.where(run.follows[1:], error, 0), run.round_off, run)
 
 
 def spins(run):
-    """I = m r^2/2 times the change of the angular velocity is the torque of the contacts, or nothing rotates."""
+    """The change of the angular velocity times I = m r^2/2 is the torque of the contacts; without rotation spins are 0."""
     if run.keys["rotation"] == "off":
         still = np.abs(run.spin[:, run.mobile]).max(axis=1)
         yield worst("no rotation", still, 0, run)
@@ -78,7 +77,8 @@ def per_frame_largest(run, values):
 
 
 def contact_law(run):
-    """No contact pulls, none exceeds Coulomb's limit, and none bears a force out of the law's sight."""
+    """No contact pulls, none exceeds Coulomb's limit, and none bears a force across a gap at which the contact law does
+    not act."""
     friction = run.number("friction")
     pull = per_frame_largest(run, -run.normal_force) / run.largest_force
     yield worst("no tension", pull, run.round_off, run)
@@ -93,13 +93,13 @@ def contact_law(run):
                     run.gap + onward * along)
     small = run.number("small-diameter")
     open_gap = (then - run.parameters["contact_margin"]) / small
-    unit = 1 + run.size / small  # round-off of positions
+    unit = 1 + run.size / small  # scale of the round-off of positions, d_S
     yield worst("no force across a gap", per_frame_largest(run, open_gap) / unit, run.round_off, run)
 
 
 def works(run):
-    """J, of all contacts in each frame's step, from the motion of both grains; the sum of the terms' sizes; and what
-    moving boundaries do."""
+    """Three works in each frame's step, J, from the motion of both grains: of all contacts; of moving boundaries; and the
+    sum of absolute values of all terms, as a scale."""
     mean, spin = (run.before + run.velocity) / 2, run.spin - run.spin_change / 2
     along, _ = run.separation(mean)
     sliding = run.sliding(mean, spin)
@@ -115,11 +115,11 @@ def works(run):
 
 
 def energy_balance(run):
-    """Energies and works in the file agree with the motion, and energy changes by work alone."""
+    """Energies and works in the file agree with the motion, and kinetic energy changes only by work."""
     seen = run.observables
     translation, rotation = run.kinetic
     kinetic = translation + rotation
-    # The smallest velocities of a bed at rest have few digits.
+    # The smallest velocities of a bed at rest have few correct digits.
     still = 1e-30 * run.unit_of_energy + 1e-300
     unit = kinetic + still
     error = np.abs(translation - seen["translational_energy"]) + np.abs(rotation - seen["rotational_energy"])
@@ -131,14 +131,14 @@ def energy_balance(run):
     falling = run.part[:, None] * np.einsum("g,fga->fa", run.mass * run.mobile, run.velocity + run.before) / 2
     by_gravity = (run.gravity * falling).sum(axis=1)
     missing = np.diff(kinetic) - (total + boundary + by_gravity)[1:]
-    # The work of gravity may be small because some grains fall while others rise: its scale is the sum over all momenta.
+    # The work of gravity may be small because some grains fall while others rise, so its scale is the sum of all momenta.
     speeds = np.linalg.norm(run.velocity + run.before, axis=2)[:, run.mobile] @ run.mass[run.mobile]
     unit = unit[1:] + kinetic[:-1] + (speeds * run.part * np.linalg.norm(run.gravity, axis=1))[1:]
     yield worst("energy changes by work", np.where(run.follows[1:], np.abs(missing) / unit, 0), run.round_off, run)
 
 
 def displaced(run, time):
-    """m, where boundaries are at `time`, s, as complex numbers about the centre of rotation: a factor and a shift."""
+    """Motion of the boundaries up to `time`, s: factor and shift (m) of positions x + iy about the centre of rotation."""
     later = np.maximum(time, 0)
     geometry = run.keys["geometry"]
     if geometry == "drum":
@@ -150,7 +150,7 @@ def displaced(run, time):
 
 
 def moving(run):
-    """Rows of boundary grains that are driven."""
+    """Rows of the boundary grains that move."""
     rows = np.flatnonzero(run.fixed)
     geometry = run.keys["geometry"]
     if geometry == "shear":
@@ -160,7 +160,7 @@ def moving(run):
 
 
 def boundaries(run):
-    """Boundary grains are where their motion puts them: in the middle of the chord of each step."""
+    """Boundary grains have the positions that their motion prescribes: the middle of the chord of each step."""
     rows = moving(run)
     others = np.setdiff1d(np.flatnonzero(run.fixed), rows)
     if len(others):
@@ -175,7 +175,7 @@ def boundaries(run):
     chord = [(a + b) / 2 for a, b in zip(displaced(run, end - run.part), displaced(run, end))]
     begin = (place[0] - chord[1][0]) / chord[0][0]
     error = place - chord[0][:, None] * begin - chord[1][:, None]
-    if run.keys["geometry"] == "shear":  # free along y, as one body
+    if run.keys["geometry"] == "shear":  # the plate is free along y, as one body
         along = error.imag - error.imag[:, :1]
         error = error.real + 1j * along
     yield worst("boundaries where their motion puts them", np.abs(error).max(axis=1) / run.size, run.round_off / 10, run)

@@ -1,8 +1,8 @@
-"""Invariants that an exact solution keeps and one that stops early may break; a run that breaks one has to say so.
+"""Invariants that an exact solution satisfies, and that a solver which stops early may violate, if the run warns.
 
-Sweeps end at a tolerance on their last change, and no theorem turns it into a bound on energy or overlap. These bounds
-are therefore gross: what no user would take for a flow of rigid discs. What a run says of itself (a missed tolerance,
-a line `doubt` in its summary) excuses a breach.
+Sweeps end at a tolerance on their last change, and no theorem derives a bound on energy or overlap from it. The bounds
+here are therefore coarse: no user would accept a larger error in a flow of rigid discs. A warning of the run (a missed
+tolerance, a line `doubt` in its summary) excuses a violation.
 """
 import numpy as np
 
@@ -10,10 +10,11 @@ from random_scenes.exact import Finding, moving, worst
 
 # Largest overlap that grseg-check accepts, over the smaller diameter (docs/studies/check.md).
 MOST_OVERLAP = 0.1
-# Lifts all grains by 0.05 d_S. G14 of the hard cases allows 0.02, of a scene that was known (tests/hard_cases/rest_test.cpp).
+# Created energy over the energy that lifts all grains by d_S. Hard case G14 allows 0.02, for a known scene
+# (tests/hard_cases/rest_test.cpp).
 MOST_CREATED = 0.05
-PAIRS_AT_MOST = 5e6  # in all frames; acting pairs are seen in each
-REST, STILL = 1e-12, 1e-10  # kinetic energy, of that which lifts all grains by d_S
+PAIRS_AT_MOST = 5e6  # most pairs that are checked in all frames; acting pairs are checked in every frame
+REST, STILL = 1e-12, 1e-10  # kinetic energy over the energy that lifts all grains by d_S
 
 
 def all_of(run):
@@ -22,10 +23,10 @@ def all_of(run):
 
 
 def overlaps(run):
-    """No two discs overlap by more than they approach in a step and MOST_OVERLAP for what sweeps leave.
+    """No two discs overlap by more than their approach in a step plus MOST_OVERLAP, the error of the sweeps.
 
-    A law that acts once discs touch stops them within a step (sim/contact/contact_law.hpp: overlap up to |u| h).
-    Approaches of the deposition count too: a fall from three times its depth."""
+    A contact law that acts once discs touch stops them within a step (sim/contact/contact_law.hpp: overlap up to |u| h).
+    Approaches in the deposition count, too: a fall from three times the depth of the bed."""
     fall = np.sqrt(6 * run.number("gravity") * run.number("depth"))
     fastest = np.maximum.accumulate(np.maximum(run.observables["fastest_approach"], fall))
     smallest = 2 * run.radius[run.mobile].min()
@@ -43,7 +44,7 @@ def overlaps(run):
 
 
 def deepest_pair(run, position):
-    """The largest overlap over the smaller diameter, of all pairs but pairs of boundary grains."""
+    """The largest overlap over the smaller diameter, of all pairs with a mobile grain."""
     dx = position[:, None, 0] - position[None, run.mobile, 0]
     dy = position[:, None, 1] - position[None, run.mobile, 1]
     if run.periodic:
@@ -55,7 +56,7 @@ def deepest_pair(run, position):
 
 
 def walls_of(run):
-    """Lines that no grain passes: a point and a normal."""
+    """Lines that no grain may pass, each a point and a normal."""
     lines = []
     if run.keys["base"] == "wall":
         lines.append(((0, 0), (0, 1)))
@@ -77,7 +78,7 @@ def deepest_in_walls(run):
 
 
 def outside(run):
-    """No centre lies below the centres of the base, outside those in a drum, or above those in a plate."""
+    """No centre of a grain lies below the lowest centre of the base, outside the ring of a drum, or above the plate."""
     x, geometry = run.position, run.keys["geometry"]
     if not run.fixed.any() or geometry == "hopper":
         return
@@ -87,7 +88,7 @@ def outside(run):
         ring = np.linalg.norm(x[:, run.fixed] - centre, axis=2).max(axis=1)
         beyond = np.linalg.norm(x[:, run.mobile] - centre, axis=2).max(axis=1) - ring
     else:
-        # Base grains of a shear cell are the lower half of its boundary.
+        # The lower half of the boundary grains of a shear cell are its base.
         beyond = x[:, run.fixed, 1].min(axis=1) - x[:, run.mobile, 1].min(axis=1)
     if geometry == "shear":
         beyond = np.maximum(beyond, x[:, run.mobile, 1].max(axis=1) - x[:, moving(run), 1].max(axis=1))
@@ -95,7 +96,7 @@ def outside(run):
 
 
 def kinetic_energy(run):
-    """J, in each frame, of grains and of a plate, which is free along y."""
+    """Kinetic energy in each frame, J, of the grains and of a plate, which is free along y."""
     energy = sum(run.kinetic)
     if run.keys["geometry"] == "shear":
         energy = energy + run.number("plate-mass") * run.velocity[:, moving(run)[0], 1] ** 2 / 2
@@ -103,18 +104,18 @@ def kinetic_energy(run):
 
 
 def created_energy(run):
-    """Energy comes from gravity, from boundaries, and from rebounds with e times the approach; from nothing else.
+    """Energy comes only from gravity, from boundaries, and from rebounds with e times the approach.
 
     With impulses p and relative velocities u before and u' after a step, contacts do the work p.(u + u')/2. In an
-    exact solution p_n (u'_n - rebound) = 0, rebound <= e times the approach, and p_t u'_t <= 0: so
-    sum p_n (u'_n - e approach) + p_t u'_t <= 0 in each step, whatever friction and e are (docs/studies/accuracy.md).
-    What this sum makes over any span of steps is the solver's. It is measured in the energy that lifts all grains by
-    d_S, plus the largest kinetic energy; 0.05 of the work of boundaries within the span is left out."""
+    exact solution p_n (u'_n - rebound) = 0, rebound <= e times the approach, and p_t u'_t <= 0. Hence
+    sum p_n (u'_n - e approach) + p_t u'_t <= 0 in each step, for any friction and e (docs/studies/accuracy.md).
+    A positive value of this sum over any span of steps is an error of the solver. Its unit is the energy that lifts all
+    grains by d_S plus the largest kinetic energy; 0.05 of the work of boundaries within the span is tolerated."""
     excess = run.sum_of_contacts(run.part[run.frame_of] * (
         run.normal_force * (run.separation(run.velocity)[0] - run.number("restitution") * approaches(run))
         + run.tangential_force * run.sliding(run.velocity, run.spin)))
     excess -= MOST_CREATED * np.abs(run.observables["work_of_boundaries"])
-    # The approach before the step before is known where both steps were whole.
+    # The approach before the previous step is known if both steps were whole.
     known = run.follows & np.append(True, run.whole[:-1])
     total = largest = 0.0
     place = 0
@@ -127,7 +128,8 @@ def created_energy(run):
 
 
 def approaches(run):
-    """m/s, of each contact, before its step or, where the speculative law remembers it, before the step before."""
+    """Approach velocity of each contact, m/s, before its step, or before the previous step if that is larger and the
+    speculative law remembers it."""
     now = np.maximum(-run.separation(run.before)[0], 0)
     if run.keys["contact-law"] != "speculative":
         return now
@@ -141,8 +143,8 @@ def approaches(run):
 
 
 def plate(run):
-    """The momentum of a plate that is free along y follows from its load and its contacts. The solver solves it with
-    the contacts, to its tolerance; over a run the error stays below 0.05 of the load's impulse."""
+    """The momentum of a plate that is free along y follows from its load and its contacts. The solver computes it together
+    with the contacts, to the tolerance; over a run the error must be below 0.05 of the load's impulse."""
     if run.keys["geometry"] != "shear" or not run.follows[1:].all():
         return
     rows = moving(run)
@@ -155,7 +157,7 @@ def plate(run):
 
 
 def is_driven(run):
-    """True where a boundary moves or gravity turns."""
+    """True if a boundary moves or gravity turns."""
     geometry = run.keys["geometry"]
     speed = {"drum": run.number("drum-rate"), "shear": run.number("plate-speed")}.get(geometry, 0)
     shaken = geometry == "bed" and len(moving(run)) > 0
@@ -163,8 +165,8 @@ def is_driven(run):
 
 
 def held_back(run):
-    """J, of each frame: what the speculative law took from pairs that are still apart. They rebound in the next step,
-    and get at most so much back."""
+    """Energy in each frame, J, that the speculative law took from pairs that are still apart. They rebound in the next
+    step, and get back at most this energy."""
     if run.keys["contact-law"] != "speculative":
         return np.zeros(run.frames)
     along = run.separation((run.before + run.velocity) / 2)[0]
@@ -173,9 +175,9 @@ def held_back(run):
 
 
 def undriven(run):
-    """Between standing boundaries, under gravity that does not turn, energy never rises, however far frames are apart.
-    Rebounds with friction may raise it (Kane's example; docs/studies/accuracy.md); so may a solver that stops
-    early. The bound is the same as in created_energy."""
+    """If boundaries are at rest and gravity does not turn, energy never rises between any two frames. Rebounds with
+    friction may raise it (Kane's example; docs/studies/accuracy.md), and so may a solver that stops early. The bound is
+    that of created_energy."""
     if is_driven(run) or run.keys["geometry"] == "shear" or run.time[0] < 0:
         return
     energy = sum(run.kinetic) + run.observables["potential_energy"]
@@ -186,8 +188,8 @@ def undriven(run):
 
 
 def rest(run):
-    """A bed that is at rest, and not driven, stays at rest. At rest: for one fall through d_S/2 the kinetic energy is below
-    1e-12 of the energy that lifts all grains by d_S."""
+    """A bed that is at rest, and not driven, stays at rest. A bed is at rest if its kinetic energy is below 1e-12 of the
+    energy that lifts all grains by d_S, for the time of a fall through d_S/2."""
     if is_driven(run):
         return
     kinetic = sum(run.kinetic) / run.unit_of_energy

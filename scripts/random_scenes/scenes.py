@@ -1,20 +1,20 @@
-"""Random scenes: small, within the ranges of all keys (sim/scene/keys/keys.cpp), the ends of ranges included.
+"""Random small scenes within the ranges of all keys (sim/scene/keys/keys.cpp), including the ends of the ranges.
 
-Times, speeds and rates are drawn in the scene's own units, made of d_S and gravity, so that most scenes flow.
+Times, speeds and rates are drawn in units of d_S and gravity, so that most scenes flow.
 """
 import dataclasses
 import math
 import random
 
-# Steps of the presets, in sqrt(d_S/g) (sim/scene/keys/keys.hpp).
+# Time steps of --accuracy, in sqrt(d_S/g) (sim/scene/keys/keys.hpp).
 STEPS = {"draft": 0.01771, "standard": 0.01107, "reference": 0.00443}
-LONGEST_STEP = 0.05  # in sqrt(d_S/g)
+LONGEST_STEP = 0.05  # longest time step, in sqrt(d_S/g)
 MOST_GRAINS = 250
-SOLID = 0.81 * 4 / math.pi  # discs of diameter 1 in a unit of area
+SOLID = 0.81 * 4 / math.pi  # number of discs of diameter 1 per unit of area
 
 
 class Dice:
-    """Draws from one stream. It uses random() alone, which no version of Python changes."""
+    """A stream of random numbers. It uses only random(), which is the same in all versions of Python."""
 
     def __init__(self, seed, number):
         self._next = random.Random(f"{seed}-{number}").random
@@ -26,7 +26,7 @@ class Dice:
         return low + (high - low) * self._next()
 
     def log(self, low, high):
-        """Uniform in its logarithm."""
+        """A number whose logarithm is uniform."""
         return math.exp(self.uniform(math.log(low), math.log(high)))
 
     def whole(self, low, high):
@@ -36,7 +36,7 @@ class Dice:
         return options[int(self._next() * len(options))]
 
     def weighted(self, **weights):
-        """A word, as often as its weight says."""
+        """A word, with a probability in proportion to its weight."""
         left = self._next() * sum(weights.values())
         for word, weight in weights.items():
             left -= weight
@@ -50,32 +50,32 @@ class Dice:
 
 @dataclasses.dataclass
 class Scene:
-    """Keys of grseg-sim, and how the scene is run:
+    """Keys of grseg-sim, and the way to run the scene:
     once      one run
-    restart   again in two halves, with a checkpoint between them: the same bytes
-    twin      again with other threads and instructions: the same bytes
-    changed   in two halves; the second one with the keys `changes`
+    restart   one run, and again in two halves with a checkpoint between them; both must give the same bytes
+    twin      one run, and again with other threads and instruction sets; all must give the same bytes
+    changed   one run in two halves; the second half has the keys `changes`
     """
     keys: dict
     frames: int
-    interval: float  # s, between frames
+    interval: float  # time between frames, s
     way: str
     changes: dict
-    twin: list
+    twin: list  # options of the other runs of `twin`
 
 
 def number(value):
-    """Four digits, so that a command can be read."""
+    """Text of a number with four digits, so that a person can read the command."""
     return f"{value:.4g}"
 
 
 def multiple(interval, count):
-    """A duration of `count` frames, s."""
+    """Text of the duration of `count` frames, s."""
     return f"{interval * count:.15g}"
 
 
 class Units:
-    """Units of the other keys: m, m/s^2, s."""
+    """Units for the other keys: length d_S (m), gravity (m/s^2), time (s), speed (m/s)."""
 
     def __init__(self, small, gravity):
         self.small, self.gravity = small, gravity
@@ -118,15 +118,15 @@ def add_grains(dice, keys):
 
 
 def add_shape(dice, keys):
-    """Lengths, and the share of large grains. Returns the depth in d_S and the number of grains."""
+    """Draws lengths and the share of large grains. Returns the depth of the bed in d_S and the number of grains."""
     ratio = float(keys["size-ratio"])
     wanted = dice.log(10, 200)
     shares = {"small": 0, "large": 1, "mixture": dice.uniform(0, 1)}
     share = shares[dice.weighted(small=12, large=8, mixture=80)]
-    grain = 1 / (1 - share + share / ratio**2)  # d_S^2, mean square of the diameter
+    grain = 1 / (1 - share + share / ratio**2)  # mean square of the diameter, d_S^2
     shape = {"drum": drum_shape, "column": column_shape, "hopper": hopper_shape}.get(keys["geometry"], bed_shape)
     area, depth = shape(dice, keys, ratio, wanted * grain / SOLID)
-    # If the cell is wide because large grains are, it would take too many small ones: they are left out.
+    # A cell that is wide because large grains are wide would need too many small grains, so their share is reduced.
     if area * SOLID * (1 - share) > MOST_GRAINS:
         share = 1 - MOST_GRAINS / (area * SOLID)
     if dice.chance(0.15) and share < 1:
@@ -149,7 +149,7 @@ def bed_shape(dice, keys, ratio, area):
 
 
 def add_base(dice, keys, ratio, length):
-    """Base grains of any size, height and spacing, through which no grain falls."""
+    """Draws base grains of any size, height and spacing that leave no hole for a grain."""
     kind = dice.weighted(touching=45, wall=15, shaped=40)
     if kind == "wall":
         keys["base"] = "wall"
@@ -190,7 +190,7 @@ def hopper_shape(dice, keys, ratio, area):
 
 
 def add_units(dice, keys, depth):
-    """Draws d_S, density and gravity, mostly as in a laboratory, else of any size."""
+    """Draws d_S, density and gravity: usually as in a laboratory, otherwise of any order of magnitude."""
     any_size = dice.chance(0.2)
     small = dice.log(1e-7, 1e4) if any_size else 0.005
     density = dice.log(1e-6, 1e6) if any_size else 1
@@ -198,7 +198,7 @@ def add_units(dice, keys, depth):
     if keys["geometry"] == "shear":
         pressure = float(number(gravity * density * small * depth * dice.log(0.01, 100)))
         keys["plate-pressure"] = number(pressure)
-        gravity = pressure / (density * small * depth)  # the default
+        gravity = pressure / (density * small * depth)  # the default of grseg-sim
     if any_size:
         keys |= {"small-diameter": number(small) + "m", "density": number(density)}
         small, density = float(number(small)), float(number(density))
@@ -222,7 +222,7 @@ def random_friction(dice):
 
 
 def random_restitution(dice, elastic=2):
-    """A bed of elastic discs never comes to rest after its deposition; a restart may make discs elastic."""
+    """Elastic discs are rare, because their bed never comes to rest after its deposition; a restart may use them."""
     kinds = {"none": 0, "elastic": 1, "usual": 0.25, "any": dice.uniform(0, 1)}
     return kinds[dice.weighted(none=20, elastic=elastic, usual=20, any=60)]
 
@@ -243,7 +243,7 @@ def add_drive(dice, keys, units, depth):
         keys["drum-rate"] = number(dice.pick(-1, 1, 1, 0) * rate)
     if keys["geometry"] == "shear":
         add_plate(dice, keys, units, depth)
-    # Shaking moves grains under a bed.
+    # Only a base of grains can be shaken.
     if keys["geometry"] == "bed" and "base" not in keys and dice.chance(0.2):
         keys |= random_shaking(dice, units)
 
@@ -257,14 +257,14 @@ def add_plate(dice, keys, units, depth):
 
 
 def random_shaking(dice, units):
-    """Amplitudes of up to 3 d_S, accelerations of 0.1 to 30 g."""
+    """Draws an amplitude of up to 3 d_S and an acceleration of 0.1 to 30 g."""
     amplitude = dice.log(1e-3, 3)
     frequency = math.sqrt(dice.log(0.1, 30) / amplitude) / (2 * math.pi) / units.time
     return {"shake-amplitude": number(amplitude) + "dS", "shake-frequency": number(frequency)}
 
 
 def add_solver(dice, keys, units):
-    """The solver's settings. Returns the step, s."""
+    """Draws the solver's settings. Returns the time step, s."""
     keys["accuracy"] = dice.weighted(standard=50, draft=35, reference=15)
     longest = STEPS[keys["accuracy"]] * units.time
     given = dice.chance(0.2)
@@ -289,10 +289,10 @@ def add_solver(dice, keys, units):
 
 
 def frames_of(dice, keys, grains):
-    """Number of frames, and steps from one to the next. Most scenes are short, with every step a frame, so that each
-    can be followed; the others are ten times as long, for what is slow."""
+    """Number of frames, and number of steps from one frame to the next. Most scenes are short, with a frame for every
+    step, so that each step can be checked. The others are ten times as long, so that slow errors show."""
     slow = keys["accuracy"] == "reference" or float(keys.get("tolerance", 1)) < 0.1
-    work = 6e4 / grains / (4 if slow else 1)  # steps that take half a second
+    work = 6e4 / grains / (4 if slow else 1)  # number of steps that take half a second
     if dice.chance(0.65):
         return 2 * round(dice.log(100, max(min(1200, work), 110)) / 2), 1
     apart = min(100, max(4, round(10 * work / 200)))
@@ -302,7 +302,7 @@ def frames_of(dice, keys, grains):
 
 
 def random_changes(dice, keys, units, depth):
-    """Keys for the second half of a run: one to three that a restart may change."""
+    """Keys for the second half of a run: one to three draws from the keys that a restart may change."""
     shaken = keys["geometry"] == "bed" and "base" not in keys
     options = [
         lambda: {"friction": number(random_friction(dice))},

@@ -4,11 +4,12 @@ import functools
 import h5py
 import numpy as np
 
-LAST_DIGIT = 2.2e-16  # of a velocity
+LAST_DIGIT = 2.2e-16  # relative round-off of a velocity
 
 
 class Trajectory:
-    """F frames, N grains, C contacts of all frames. A divided step shows its last part alone."""
+    """Arrays of F frames, N grains, and C contacts of all frames. If a step was divided into parts, the frame has only the
+    last part."""
 
     def __init__(self, path):
         with h5py.File(path) as file:
@@ -30,8 +31,8 @@ class Trajectory:
         self.contact_force, self.branch = contacts["force"][()], contacts["branch"][()]
         self.gap, self.offset = contacts["gap"][()], contacts["offset"][()].astype(int)
         self.observables = {name: item["value"][()] for name, item in file["observables"].items()}
-        self.part = self.observables["frame_step"]  # s, what the frame shows of its step
-        # Of numbers in the file; of what follows from a few hundred of them.
+        self.part = self.observables["frame_step"]  # duration of each frame's step, or of its last part, s
+        # round_off: accepted relative error of a result that is computed from a few hundred numbers of the file.
         self.single = self.keys["store"] == "float32"
         self.round_off = 1e-4 if self.single else 1e-9
 
@@ -48,17 +49,17 @@ class Trajectory:
 
     @functools.cached_property
     def whole(self):
-        """Frames of steps that were taken whole."""
+        """True for frames whose step was not divided [F]."""
         return np.abs(self.part / self.number("step") - 1) < 1e-6
 
     @functools.cached_property
     def follows(self):
-        """Frames of whole steps right after the frame before."""
+        """True for frames whose step was not divided and follows directly on the step of the frame before [F]."""
         return self.whole & (np.diff(self.step, prepend=self.step[0]) == 1)
 
     @functools.cached_property
     def gravity(self):
-        """Gravity in each frame's step, m/s^2."""
+        """Gravity in each frame's step, m/s^2 [F, 2]."""
         g = self.number("gravity") if self.keys["geometry"] != "shear" else 0
         later = np.maximum(self.time, 0)
         slope = np.radians(np.where(self.time > 0, self.number("slope") + self.number("slope-rate") * later, 0))
@@ -66,17 +67,17 @@ class Trajectory:
 
     @functools.cached_property
     def size(self):
-        """m, of the cell or of what the grains have crossed."""
+        """Largest length of the cell or of the region that the grains have visited, m."""
         return max(self.width, self.height, np.abs(self.position).max())
 
     @functools.cached_property
     def frame_of(self):
-        """The frame of each contact."""
+        """Index of each contact's frame [C]."""
         return np.repeat(np.arange(self.frames), np.diff(self.offset))
 
     @functools.cached_property
     def before(self):
-        """Velocities at the beginning of each frame's step, m/s: `force` is m (v - v_before)/h, of boundary grains too."""
+        """Velocities at the beginning of each frame's step, m/s. `force` is m (v - v_before)/h, for boundary grains, too."""
         return self.velocity - self.force / self.mass[:, None] * self.part[:, None, None]
 
     @functools.cached_property
@@ -89,18 +90,18 @@ class Trajectory:
 
     @functools.cached_property
     def arm(self):
-        """Distance of the contact point over the radius, of both grains."""
+        """Distance between centre and contact point over the radius, the same for both grains of a contact [C]."""
         reach = self.radius[self.i] + np.where(self.j >= 0, self.radius[self.j], 0)
         return np.where(self.j >= 0, np.linalg.norm(self.branch, axis=1) / reach, 1)
 
     def separation(self, velocity):
-        """The relative velocity of each contact along its normal, m/s; a wall stands still."""
+        """Relative velocity of each contact along its normal [C], and as a vector [C, 2], m/s; walls do not move."""
         relative = velocity[self.frame_of, self.i]
         relative[self.j >= 0] -= velocity[self.frame_of, self.j][self.j >= 0]
         return np.einsum("ca,ca->c", relative, self.normal), relative
 
     def sliding(self, velocity, spin):
-        """The relative velocity of each contact along its tangent, m/s."""
+        """Relative velocity of the two surfaces along the tangent of each contact [C], m/s."""
         rims = (spin * self.radius)[self.frame_of, self.i]
         rims[self.j >= 0] += (spin * self.radius)[self.frame_of, self.j][self.j >= 0]
         _, relative = self.separation(velocity)
@@ -116,7 +117,7 @@ class Trajectory:
 
     @functools.cached_property
     def spin_change(self):
-        """1/s, what the contacts of each frame's step do to spins: I = m r^2/2."""
+        """Change of spins by the contacts of each frame's step, 1/s, with I = m r^2/2."""
         change = np.zeros_like(self.spin)
         if self.keys["rotation"] == "off":
             return change
@@ -130,30 +131,32 @@ class Trajectory:
 
     @functools.cached_property
     def largest_force(self):
-        """N, of each frame: a contact's, one on a grain, a weight, or what the last digits of velocities amount to."""
+        """Scale of the forces in each frame, N: largest contact force + largest force on a grain + largest weight + force
+        that corresponds to the round-off of velocities."""
         largest = np.linalg.norm(self.force[:, self.mobile], axis=2).max(axis=1)
         np.maximum.at(largest, self.frame_of, np.linalg.norm(self.contact_force, axis=1))
         heaviest = self.mass[self.mobile].max()
         fastest = np.abs(self.velocity).max(axis=(1, 2))
-        # Each sweep adds to velocities.
+        # Each sweep adds to velocities, and so adds a round-off error.
         rounded = LAST_DIGIT * (4 + self.observables["sweeps"])
         digits = rounded / self.round_off * heaviest * fastest / self.part
         return largest + heaviest * np.linalg.norm(self.gravity, axis=1) + digits + 1e-300
 
     def sum_of_contacts(self, values):
-        """The sum over the contacts of each frame."""
-        return np.bincount(self.frame_of, weights=values, minlength=self.frames).astype(float)  # whole numbers of none
+        """Sum of values over the contacts of each frame [F]."""
+        # Without any contact bincount returns integers.
+        return np.bincount(self.frame_of, weights=values, minlength=self.frames).astype(float)
 
     @functools.cached_property
     def kinetic(self):
-        """J, of mobile grains at the end of each frame's step: of translation, of rotation."""
+        """Kinetic energy of translation and of rotation of the mobile grains at the end of each frame's step, J."""
         mass, radius = self.mass[self.mobile], self.radius[self.mobile]
         return ((self.velocity[:, self.mobile] ** 2).sum(axis=2) @ mass / 2,
                 (self.spin[:, self.mobile] ** 2) @ (mass * radius**2) / 4)
 
     @functools.cached_property
     def unit_of_energy(self):
-        """J, that lifts all grains by d_S; in a shear cell, the plate."""
+        """Energy that lifts all grains by d_S, or, in a shear cell, the plate, J."""
         small = self.number("small-diameter")
         if self.keys["geometry"] == "shear":
             return self.number("plate-pressure") * self.width * small

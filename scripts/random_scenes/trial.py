@@ -1,4 +1,4 @@
-"""Runs a random scene, and judges it."""
+"""Runs a random scene and checks the invariants of exact.py and physical.py."""
 import collections
 import dataclasses
 import os
@@ -14,10 +14,10 @@ from random_scenes import exact, physical
 from random_scenes.scenes import multiple, random_scene
 from random_scenes.trajectory import Trajectory
 
-LONGEST = 600  # s of wall time of one program; nearly all take less than one
-OUTCOMES = {"held": "every invariant held", "reported": "the tolerance was missed, which exit code 4 says",
+LONGEST = 600  # most wall time of one program, s; nearly all take less than 1 s
+OUTCOMES = {"held": "every invariant is satisfied", "reported": "the tolerance was missed, as exit code 4 reports",
             "doubted": "the summary has a line `doubt`", "stopped": "exit code 1 and one sentence",
-            "refused": "exit code 2 and one sentence", "failed": "an invariant is broken without a word, or a program failed"}
+            "refused": "exit code 2 and one sentence", "failed": "an invariant is violated without a warning, or a program failed"}
 # Datasets that must have the same bytes.
 COMPARED = ("particles/grains/position/value", "particles/grains/image/value", "particles/grains/velocity/value",
             "particles/grains/angular_velocity/value", "particles/grains/force/value")
@@ -31,7 +31,7 @@ class Trial:
     commands: list = dataclasses.field(default_factory=list)
     outcome: str = "held"
     sentence: str = ""
-    broken: list = dataclasses.field(default_factory=list)  # findings
+    broken: list = dataclasses.field(default_factory=list)  # findings (exact.py) above their bounds
     near: list = dataclasses.field(default_factory=list)  # all findings
 
     def fail(self, name, measured, bound, place=""):
@@ -40,17 +40,17 @@ class Trial:
 
 
 class Ended(Exception):
-    """The scene was refused or stopped; nothing follows."""
+    """Raised if the scene was refused or stopped, so that nothing is left to run."""
 
 
 class Simulator:
-    """grseg-sim in a folder of one scene's files."""
+    """Runs grseg-sim in the folder with one scene's files."""
 
     def __init__(self, program, folder, trial):
         self.program, self.folder, self.trial = program, folder, trial
 
     def run(self, arguments, output):
-        """Runs it; returns whether the run has said that it may be wrong."""
+        """Runs grseg-sim; returns True if the run warns that it may be wrong."""
         words = [*arguments, "--strict", "-o", output]
         self.trial.commands.append(shlex.join(["grseg-sim", *words]))
         try:
@@ -67,10 +67,11 @@ class Simulator:
         return self.trial.outcome in ("reported", "doubted")
 
     def judge(self, done, output):
-        """A run that did not finish has to end with one sentence, and leaves no file under its name."""
+        """Checks that a run which did not finish ends with one sentence and leaves no file under its final name."""
         trial, code = self.trial, done.returncode
         there, part = (os.path.exists(f"{self.folder}/{name}") for name in (output, output + ".part"))
-        said = [line for line in done.stderr.splitlines() if re.match(r"grseg-sim: (?!\d+ grains, )", line)]  # but the estimate
+        # Sentences of the program, except its estimate "N grains, ...".
+        said = [line for line in done.stderr.splitlines() if re.match(r"grseg-sim: (?!\d+ grains, )", line)]
         if code in (0, 4):
             if not there or part:
                 trial.fail("files at the end", f"{output}: {there}, {output}.part: {part}", "the trajectory alone")
@@ -87,7 +88,7 @@ class Simulator:
         raise Ended
 
     def check(self, name, excused):
-        """Exact invariants always count, physical ones where the run has said nothing."""
+        """Checks the invariants of a run: the exact ones always, the physical ones unless they are `excused`."""
         run = Trajectory(f"{self.folder}/{name}")
         findings = [(True, f) for f in exact.all_of(run)]
         if all(f.measured <= f.bound for _, f in findings):
@@ -104,7 +105,7 @@ def options(keys):
 
 
 def same_bytes(trial, folder, part, whole, first):
-    """Frames of `part` equal the frames of `whole` from number `first` on."""
+    """Checks that the frames of `part` equal the frames of `whole` from number `first` on."""
     with h5py.File(f"{folder}/{part}") as a, h5py.File(f"{folder}/{whole}") as b:
         count = len(a[COMPARED[0]])
         different = [name for name in COMPARED if a[name][()].tobytes() != b[name][first:first + count].tobytes()]
@@ -118,7 +119,7 @@ def same_bytes(trial, folder, part, whole, first):
 
 
 def simulate(simulator, scene):
-    """All runs of a scene. A scene file is not needed: every key is an option."""
+    """Makes all runs of a scene and checks them. No scene file is needed, since every key is an option."""
     half = scene.frames // 2
     halved = dict(scene.keys) | {"duration": multiple(scene.interval, half)}
     to_half = ["/dev/null", *options(halved), "--checkpoint", "half.chk"]
@@ -161,7 +162,7 @@ def line_of(trial, finding):
 
 
 def without_numbers(sentence):
-    """Sentences of one kind look the same."""
+    """The sentence with # in place of numbers, so that sentences of one kind are equal."""
     return re.sub(r"-?\d[\d.]*(e[-+]?\d+)?", "#", sentence)
 
 
@@ -171,11 +172,11 @@ def print_totals(trials, seconds):
     for outcome, meaning in OUTCOMES.items():
         print(f"  {outcome:9} {counts[outcome]:5}   {meaning}")
     ended = counts["stopped"] + counts["refused"]
-    print(f"  {100 * ended / max(1, len(trials)):.0f} % stopped or refused, of them:")
+    print(f"  {100 * ended / max(1, len(trials)):.0f} % stopped or refused, with these sentences:")
     kinds = collections.Counter((t.outcome, without_numbers(t.sentence)) for t in trials if t.sentence)
     for (outcome, sentence), count in kinds.most_common():
         print(f"  {outcome:9} {count:5}   {sentence}")
-    print("Nearest to its bound (part of it that was used, where above 0, by scenes that held):")
+    print("Largest value of each invariant over its bound, if that is above 0, in scenes that did not fail:")
     near = {}
     for trial in trials:
         for f in trial.near:
@@ -186,7 +187,7 @@ def print_totals(trials, seconds):
 
 
 def try_all(seed, numbers, program, clock, keep=None, each=lambda trial: None):
-    """Prints what fails, and totals. Returns whether all is well."""
+    """Prints failures and totals. Returns True if no invariant is violated."""
     begin, trials = clock(), []
     for number in numbers:
         trial = try_scene(seed, number, program, keep)

@@ -1,10 +1,10 @@
-# Figures, numbers and docs/studies/reproduction.md from the tables of the campaign, or from those kept in
-# data/reproduction: nothing is simulated and no trajectory is read.
+# Figures, numbers and docs/studies/reproduction.md from the tables of the campaign, or from the archived tables in
+# data/reproduction. Nothing is simulated and no trajectory is read.
 #
 #   make -C scripts reproduction.md                    docs/studies/reproduction.md, its annex and figures, from data/reproduction
-#   make -C scripts reproduction.md TABLES=FOLDER      from the tables that make reproduce left in FOLDER
-#   make -C scripts figures/kinetic-profile.png        one figure, into WORK; .pdf for a paper
-#   make -C scripts kept TABLES=FOLDER                 makes data/reproduction again from these tables
+#   make -C scripts reproduction.md TABLES=FOLDER      the same, from the tables that make reproduce wrote into FOLDER
+#   make -C scripts figures/kinetic-profile.png        one figure, in the folder WORK; .pdf for a publication
+#   make -C scripts kept TABLES=FOLDER                 makes data/reproduction again from the tables in FOLDER
 #
 # Relative names refer to the folder where make was called.
 
@@ -14,7 +14,7 @@ KEPT := $(CURDIR)/../../data/reproduction
 TABLES ?=
 WORK ?= reproduction-figures
 DOCUMENT ?= $(CURDIR)/../../docs/studies/reproduction.md
-# A page elsewhere has an annex only where one is named.
+# If DOCUMENT is another page, an annex is written only if ANNEX names one.
 ANNEX ?= $(if $(filter file,$(origin DOCUMENT)),$(DOCUMENT:.md=-annex.md))
 PICTURES ?= $(CURDIR)/../../docs/studies/figures/reproduction
 BOOTSTRAP ?= 1000
@@ -32,20 +32,20 @@ gp := ../figures
 .SUFFIXES:
 
 reproduction.md:
-# The kept tables are unpacked before make looks for runs.
+# The archived tables are unpacked before make looks for runs.
 ifeq ($(TABLES),)
 unpacked := $(shell $(reduce) unpack $(KEPT) $(tables) >&2 || echo no)
-$(if $(unpacked),$(error data/reproduction holds no tables that can be unpacked; name a folder with tables: TABLES=FOLDER))
+$(if $(unpacked),$(error data/reproduction has no tables that can be unpacked; name a folder with tables: TABLES=FOLDER))
 endif
 runs := $(sort $(patsubst %/checksums,%,$(wildcard $(tables)/*/checksums)))
-$(if $(runs),,$(error $(tables) holds no finished run))
+$(if $(runs),,$(error $(tables) has no finished run; name the folder that make reproduce filled: TABLES=FOLDER))
 
 # of FLOWS,QUANTITY: the tables of all seeds of these flows.
 of = $(strip $(foreach flow,$(1),$(patsubst %,%/$(2).tsv,$(filter $(tables)/$(flow)-seed%,$(runs)))))
 mixtures := $(foreach phi,0.06 0.15 0.30 0.45 0.60 0.75,phi$(phi)-s23)
 slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
 
-# The figures that these flows allow.
+# Figures that can be drawn from the flows in TABLES.
 names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-profile balance) \
   $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows) \
   $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate) \
@@ -57,7 +57,7 @@ figures: $(pictures)
 $(names:%=figures/%.png) $(names:%=figures/%.pdf): figures/%: $(work)/%
 
 inside := --heights 4dS:56dS --quiet
-# One number for all mixtures, as published (docs/studies/uncertainty.md).
+# One B for all mixtures, as Staron & Phillips published it (docs/studies/uncertainty.md).
 fit = $(bin)/grseg-fit --over compositions --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
 micro = $(bin)/grseg-derive --overwrite -o $@
 code = $(1:%=campaign/%.py) campaign/tables.py ../shared.py
@@ -66,7 +66,7 @@ every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
 $(work):
 	mkdir -p $@
 
-# All mixtures: their tables one behind the other, for fit-points, and their rows in one table.
+# Tables of all mixtures: concatenated, for fit-points, or with all rows in one table.
 $(work)/stress.tsv $(work)/kinetic.tsv: $(work)/%.tsv: $(every) | $(work)
 	cat $(call of,$(mixtures),$*) > $@
 $(work)/micro.tsv: $(work)/%.tsv: $(every) | $(work)
@@ -95,10 +95,10 @@ $(work)/fits.tsv: $(every) $(call code,fits) | $(work)
 	$(reduce) fits $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
 $(work)/flows.tsv: $(work)/fits.tsv $(call code,flows)
 	$(reduce) flows $(tables) $< -o $@ --bin $(bin)
-# The tables behind the choices are not kept, only their result.
+# The tables from which choices.tsv is made are not archived; choices.tsv itself is.
 $(work)/choices.tsv: $(every) $(call code,fits) | $(work)
 	$(if $(TABLES),$(reduce) choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
-# Tables that only trajectories can give are kept.
+# combinations.tsv needs trajectories, so it is archived.
 $(work)/combinations.tsv: $(KEPT)/combinations.tsv | $(work)
 	cp $< $@
 $(work)/combined.tsv: $(work)/combinations.tsv $(call code,combinations combined)
@@ -106,7 +106,7 @@ $(work)/combined.tsv: $(work)/combinations.tsv $(call code,combinations combined
 $(work)/numbers.tsv: $(every) $(call code,measures rise profiles) | $(work)
 	$(reduce) numbers $(tables) -o $@ --bin $(bin)
 
-# Each figure and its tables; a picture is a PNG or a PDF by the end of its name.
+# Figures and the tables that they need; a picture is a PNG or a PDF, by the end of its name.
 both = $(foreach name,$(1),$(work)/$(name).png $(work)/$(name).pdf)
 $(call both,snapshots): $(work)/snapshots.tsv
 $(call both,pressure-profile kinetic-profile): $(work)/profile.tsv
@@ -132,7 +132,7 @@ $(work)/kinetic-ratio.png $(work)/kinetic-ratio.pdf:
 
 choices.tsv: $(work)/choices.tsv
 
-# The document and its annex: only their generated parts are replaced.
+# In the document and its annex only the generated parts are replaced.
 reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv scan.tsv choices.tsv combinations.tsv)
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
@@ -140,7 +140,7 @@ reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv
 
 kept: $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }
-	@test -n "$(filter $(tables)/phi0.45-s23-e%,$(runs))" || { echo "$(tables) holds no sensitivities, which data/reproduction needs: make -C scripts sensitivities" >&2; exit 2; }
+	@test -n "$(filter $(tables)/phi0.45-s23-e%,$(runs))" || { echo "$(tables) has no sensitivities, which data/reproduction needs: make -C scripts sensitivities" >&2; exit 2; }
 	mkdir -p $(KEPT)
 	$(reduce) keep $(tables) $(KEPT)/tables.tar.bz2
 	cp $(work)/choices.tsv $(KEPT)

@@ -1,4 +1,4 @@
-# One run, in its own folder: scene.ini -> run.h5 -> TABLES (and PAGE, page.html) -> checksums. Called by Makefile and by
+# Makes one run in its folder: scene.ini -> run.h5 -> TABLES (and PAGE, page.html) -> checksums. Called by Makefile and
 # ../sweep/Makefile.
 
 include $(scripts)/../values.mk
@@ -13,7 +13,7 @@ campaign := /usr/bin/python3 $(scripts)/campaign
 
 done: checksums
 	@:
-# Made last, after the trajectory is deleted: a run that has this file is finished.
+# checksums is made last, after the trajectory is deleted: a run with this file is finished.
 checksums: $(TABLES) $(PAGE) cost.tsv
 	$(if $(KEEP),,rm -f run.chk run_prev.chk run.h5)
 	rm -f *.lock *.part
@@ -24,14 +24,14 @@ checksums: $(TABLES) $(PAGE) cost.tsv
 run.h5: scene.ini
 	$(run) $(campaign) simulate $(bin)/grseg-sim $(call quote,$(CHECKPOINT_EVERY))
 
-# Options by word in the name of a table, behind its tool; strideN: one frame of N.
+# Options for the words in the name of a table, after its tool; strideN: every N-th frame.
 word_branch := --assign branch
 word_grain := --assign grain
 word_gauss := --assign gauss
 word_centre := --composition centre
 word_2dS := --layer 2dS
 word_8dS := --layer 8dS
-# Random labels break the seal of the trajectory.
+# Random labels change the content of the trajectory, so its seal is no longer valid.
 word_random := --trust
 word_layer := --mean layer
 word_instant := --mean instant
@@ -44,16 +44,17 @@ word_summary := --summary --heights $(SUMMARY_HEIGHTS)
 options_of = $(if $(filter check,$(1)),--physics) \
   $(foreach word,$(wordlist 2,9,$(subst -, ,$(1))),$(or $(word_$(word)),$(patsubst stride%,--stride %,$(filter stride%,$(word)))))
 
-# Among equal grains any half may be labelled large.
+# The control: equal grains with random labels; any choice of the large grains is equivalent.
 trajectory_stress-random := random.h5.part
 
 extracts := $(filter record.tsv observables.tsv snapshots.tsv,$(TABLES))
 sums := $(filter-out $(extracts),$(TABLES))
-# command_of TABLE: as recorded in the history of that table.
+# command_of TABLE: the command that makes the table, as the table's history records it.
 command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_of) --quiet)
 
-# Tables that were made by another command are made again.
+# Tables that were made by another command than now are made again.
 outdated := $(shell $(campaign) outdated $(call quote,$(AGAIN)) $(extracts) $(PAGE) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
+$(if $(filter-out 0,$(.SHELLSTATUS)),$(error $(notdir $(CURDIR)): which tables are outdated is unknown; see the message above))
 $(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): missing, or made by another \
   command than now, and the trajectory was deleted; AGAIN=yes simulates the run again))
 $(outdated): FORCE
@@ -68,11 +69,11 @@ stress-random.tsv: run.h5
 	$(table) $(bin)/$(call command_of,$(basename $@))
 	rm $(trajectory_stress-random)
 
-# B comes from the table, which has no restarts in its history.
+# The page computes B from stress.tsv, whose history has no restarts.
 page.html: run.h5 stress.tsv
 	$(run) $(bin)/grseg-explore run.h5 stress.tsv --quiet --overwrite -o $@
 
-# Wall times, which no checksum covers: tables are the same whether or not their run was interrupted.
+# Wall times. No checksum includes them, so that checksums are the same for an interrupted and an uninterrupted run.
 cost.tsv: run.h5 $(TABLES)
 	$(campaign) cost > $@.new
 	mv $@.new $@

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The members of bodies, four side by side in memory, as vectors and back; and of pairs of numbers.
-// It is compiled once per instruction set, by files that include themselves so
-// (hwy/foreach_target.h).
+// Loads bodies, whose four members lie side by side in memory, into one vector per member, and
+// stores them; loads pairs of numbers likewise. Compiled once per instruction set, by files that
+// include themselves for that purpose (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_BODIES) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_BODIES
 #undef GRSEG_SIM_BODIES
@@ -17,8 +17,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Entries of MotionOf, one member per vector; with floats the last one is 0. With doubles also
-/// other things that have four members each, such as Pairs::Memory.
+/// Members of several MotionOf, one vector per member, one body per lane; with floats the last
+/// vector is 0. With doubles it also loads other structs of four doubles, such as Pairs::Memory.
 template <class Tag>
 struct Bodies {
   hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
@@ -68,11 +68,11 @@ HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* moti
 
 #else
 
-/// A whole body, or half of one.
+/// Vector that contains a whole body (four doubles), or half of one on narrow instruction sets.
 using Row = hn::CappedTag<double, 4>;
 
-/// The members of bodies from their rows: row(k, from) is the part of row k that begins at member
-/// `from`; where vectors have less than four lanes a row has two parts.
+/// Members of the bodies whose rows (four doubles each) are given. row(k, from) is the part of row
+/// k that begins at member `from`: the whole row, or half of it if vectors have two lanes.
 template <class Tag, class RowOf>
 HWY_INLINE Bodies<Tag> sort_rows(Tag d, const RowOf& row)
 {
@@ -99,7 +99,7 @@ HWY_INLINE Bodies<Tag> sort_rows(Tag d, const RowOf& row)
   }
 }
 
-/// Whole bodies are loaded and their members sorted into vectors, since that takes fewer operations
+/// Whole bodies are loaded and their members sorted into vectors, which takes fewer operations
 /// than gathering member by member.
 template <class Tag>
 HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint32_t* at)
@@ -108,7 +108,7 @@ HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint3
       d, [&](int k, std::size_t from) HWY_ATTR { return hn::Load(Row(), motion + at[k] + from); });
 }
 
-/// By exclusive or with a row: the velocity changes its sign, the rim speed does not.
+/// Bits that an exclusive or applies to a row to change the sign of the velocity only.
 alignas(32) constexpr double opposite_velocity[] = {-0.0, -0.0, 0.0, 0.0};
 
 HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t* i,
@@ -122,8 +122,8 @@ HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t
   return {sums.vx, sums.vy, sums.inverse_mass};
 }
 
-/// Sorts the members of bodies into rows, one per body: use(part, from, k) for the part of row k
-/// that begins at its member `from`; where vectors have less than four lanes a row has two parts.
+/// Sorts the members of bodies into rows, one per body. Calls use(part, from, k) with the part of
+/// row k that begins at its member `from`: the whole row, or half of it if vectors have two lanes.
 template <class Tag, class Use>
 HWY_INLINE void for_each_row(Tag d, const Bodies<Tag>& b, const Use& use)
 {
@@ -152,7 +152,7 @@ HWY_INLINE void for_each_row(Tag d, const Bodies<Tag>& b, const Use& use)
   }
 }
 
-/// The way back. Two lanes with the same immobile body write the same.
+/// Inverse of load_bodies(). Two lanes with the same immobile body write the same numbers.
 template <class Tag>
 HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const std::uint32_t* at)
 {
@@ -161,9 +161,9 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const 
   });
 }
 
-/// Gives bodies i the impulses (px, py) and bodies j the opposite ones; `spin` is taken from the
-/// rim speeds of both, times the inverse mass. Impulses are sorted into rows, not bodies into
-/// vectors: that takes half as many operations.
+/// Applies the impulses (px, py) to bodies i and the opposite impulses to bodies j, and subtracts
+/// `spin` times the inverse mass from both rim speeds. Sorting impulses into rows takes half as
+/// many operations as sorting bodies into vectors.
 HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
                             const std::uint32_t* i, const std::uint32_t* j)
 {
@@ -179,7 +179,7 @@ HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* moti
                });
 }
 
-/// Exchanges rows and columns of the squares of four by four that blocks of 128 bits make up.
+/// Transposes four by four floats within each block of 128 bits of four vectors.
 template <class Tag>
 HWY_INLINE Bodies<Tag> transpose(Tag d, hn::Vec<Tag> r0, hn::Vec<Tag> r1, hn::Vec<Tag> r2,
                                  hn::Vec<Tag> r3)
@@ -214,7 +214,7 @@ HWY_INLINE Bodies<Tag> load_bodies(Tag d, const float* motion, const std::uint32
     }
   };
   auto bodies = transpose(d, row(0), row(1), row(2), row(3));
-  bodies.inverse_mass = hn::Zero(d);  // known to the compiler, need not be kept
+  bodies.inverse_mass = hn::Zero(d);  // a constant, so that no register is needed
   return bodies;
 }
 
@@ -247,20 +247,20 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, float* motion, const s
 
 #endif  // HWY_TARGET == HWY_SCALAR
 
-/// Two neighbouring doubles of each lane: the first ones, and the second ones.
+/// Pairs of doubles that are neighbours in memory, one pair per lane.
 struct Twos {
   Vector first, second;
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
-/// The two doubles that begin at `from + at`, lane by lane.
+/// Loads two neighbouring doubles per lane, the first from `from + at[lane]`.
 HWY_INLINE Twos load_twos(D d, const double* from, const std::uint32_t* at)
 {
   return {hn::Load(d, from + *at), hn::Load(d, from + *at + 1)};
 }
 
-/// The two doubles at `from + scale i` less those at `from + scale j`.
+/// Per lane, two doubles at `from + scale i` minus two doubles at `from + scale j`.
 template <std::size_t scale>
 HWY_INLINE Twos load_differences(D d, const double* from, const std::uint32_t* i,
                                  const std::uint32_t* j)
@@ -269,7 +269,7 @@ HWY_INLINE Twos load_differences(D d, const double* from, const std::uint32_t* i
   return {hn::Sub(hn::Load(d, a), hn::Load(d, b)), hn::Sub(hn::Load(d, a + 1), hn::Load(d, b + 1))};
 }
 
-/// As many twos as there are lanes, one behind the other.
+/// Loads consecutive pairs of doubles, one pair per lane.
 HWY_INLINE Twos load_next_twos(D d, const double* from)
 {
   return {hn::Load(d, from), hn::Load(d, from + 1)};
@@ -277,7 +277,7 @@ HWY_INLINE Twos load_next_twos(D d, const double* from)
 
 #else
 
-/// First and second members of the twos that `two(lane)` gives.
+/// First and second members of the pairs that `two(lane)` returns.
 template <class Tag, class Two>
 HWY_INLINE Twos sort_twos(Tag d, const Two& two)
 {
@@ -298,14 +298,14 @@ HWY_INLINE Twos sort_twos(Tag d, const Two& two)
 
 using TwoDoubles = hn::FixedTag<double, 2>;
 
-/// The two doubles that begin at `from + at`, lane by lane.
+/// Loads two neighbouring doubles per lane, the first from `from + at[lane]`.
 template <class Tag>
 HWY_INLINE Twos load_twos(Tag d, const double* from, const std::uint32_t* at)
 {
   return sort_twos(d, [&](int k) HWY_ATTR { return hn::Load(TwoDoubles(), from + at[k]); });
 }
 
-/// The two doubles at `from + scale i` less those at `from + scale j`.
+/// Per lane, two doubles at `from + scale i` minus two doubles at `from + scale j`.
 template <std::size_t scale, class Tag>
 HWY_INLINE Twos load_differences(Tag d, const double* from, const std::uint32_t* i,
                                  const std::uint32_t* j)
@@ -316,7 +316,7 @@ HWY_INLINE Twos load_differences(Tag d, const double* from, const std::uint32_t*
   });
 }
 
-/// As many twos as there are lanes, one behind the other.
+/// Loads consecutive pairs of doubles, one pair per lane.
 template <class Tag>
 HWY_INLINE Twos load_next_twos(Tag d, const double* from)
 {

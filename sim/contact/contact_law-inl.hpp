@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The equations of the contact law, see contact_law.hpp. V is a number, or a vector with a number
-// of each of several pairs. Compiled once per instruction set, by files that include themselves so
+// Equations of the contact law, see contact_law.hpp. V is a number, or a vector with one number per
+// pair. Compiled once per instruction set, by files that include themselves for that purpose
 // (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_CONTACT_LAW) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_CONTACT_LAW
@@ -18,8 +18,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// True where two discs act whose centres are (dx, dy) apart after the forecast, m; reach = r_i +
-/// r_j.
+/// True for two discs that act. (dx, dy): vector between their centres after `forecast` steps of
+/// free flight (contact_law.hpp), m; reach = r_i + r_j.
 template <class V>
 HWY_INLINE auto acts(V dx, V dy, V reach, V margin)
 {
@@ -27,21 +27,22 @@ HWY_INLINE auto acts(V dx, V dy, V reach, V margin)
   return dx * dx + dy * dy <= limit * limit;
 }
 
-/// True where a disc acts whose centre is then at `distance` from a wall, m; `reach` is its radius.
+/// True for a disc that acts on a wall. `distance` of its centre from the wall after `forecast`
+/// steps of free flight, m; `reach` is its radius.
 template <class V>
 HWY_INLINE auto acts_on_wall(V distance, V reach, V margin)
 {
   return distance <= reach + margin;
 }
 
-/// Unit vector from j to i, and the distance, m, of the centres: gap = distance - reach.
+/// Unit vector from j to i, and distance of the centres, m: gap = distance - reach.
 template <class V>
 struct Normal {
   V nx, ny, distance;
 };
 
-/// Normal of two discs whose centres are (dx, dy) apart at mid-step, m; anything finite where
-/// `used` is false.
+/// Normal of two discs. (dx, dy): vector between their centres at mid-step, m. The result is
+/// arbitrary but finite if `used` is false.
 template <class V>
 HWY_INLINE Normal<V> normal_of_discs(V dx, V dy, MaskOf<V> used)
 {
@@ -50,15 +51,16 @@ HWY_INLINE Normal<V> normal_of_discs(V dx, V dy, MaskOf<V> used)
   return {dx * inverse, dy * inverse, distance};
 }
 
-/// Normal of a disc whose centre lies (dx, dy) from a point of a wall with normal (nx, ny).
+/// Normal of a disc at a wall with normal (nx, ny). (dx, dy): vector from a point of the wall to
+/// the centre of the disc, m.
 template <class V>
 HWY_INLINE Normal<V> normal_of_wall(V dx, V dy, V nx, V ny)
 {
   return {nx, ny, dx * nx + dy * ny};
 }
 
-/// Effective masses 1/W_nn and 1/W_tt, kg; W_nt = 0 for discs. From the sum of inverse masses; 0
-/// where `used` is false.
+/// Effective masses 1/W_nn (from the sum of inverse masses; 0 if `used` is false) and 1/W_tt, kg;
+/// W_nt = 0 for discs.
 template <class V>
 HWY_INLINE V normal_mass(V inverse_masses, MaskOf<V> used)
 {
@@ -71,7 +73,7 @@ HWY_INLINE V tangential_mass(V normal_mass, V kappa, double rim_factor = disc_ri
   return normal_mass / (number<V>(1) + number<V>(rim_factor) * (kappa * kappa));
 }
 
-/// -separation (m/s), or 0 where the error of the solver may have made it; `load` = W_nn p_n (m/s).
+/// Approach, -separation (m/s), or 0 if it may be an error of the solver; `load` = W_nn p_n (m/s).
 template <class V>
 HWY_INLINE V fresh_approach(V separation, V load)
 {
@@ -80,16 +82,16 @@ HWY_INLINE V fresh_approach(V separation, V load)
   return choose(magnitude(separation) > error * load, minus(separation));
 }
 
-/// Separation velocity that an acting pair must reach, and the approach it has to remember.
+/// Separation velocity that an acting pair must reach, and the approach stored for the next step.
 template <class V>
 struct Rebound {
   V velocity;    // m/s, least separation velocity after the step
-  V remembered;  // m/s, approach of a pair that is only slowed down; counts if it gets p_n > 0
+  V remembered;  // m/s, approach of a pair that is only slowed down; stored if p_n > 0
 };
 
 /// `gap` (m) at mid-step, `separation` (m/s) before the step; `load` = W_nn p_n (m/s) and
-/// `remembered` are what the step before left behind, 0 for a pair that did not act. `horizon` in
-/// s. Without `with_restitution` as for e = 0, without `with_horizon` as for horizon 0.
+/// `remembered` (Rebound, m/s) are results of the previous step, 0 for a pair that did not act.
+/// `horizon` in s. Without `with_restitution` e is 0; without `with_horizon` the horizon is 0.
 template <bool with_restitution, bool with_horizon, class V>
 HWY_INLINE Rebound<V> rebound_of(V gap, V separation, V load, V remembered, double restitution,
                                  double horizon)
@@ -99,27 +101,27 @@ HWY_INLINE Rebound<V> rebound_of(V gap, V separation, V load, V remembered, doub
   V approach = fresh_approach(separation, load);
   if constexpr (with_horizon)
     approach = choose(already_slowed_down, larger(remembered, approach), approach);
-  // The sum is never -0, which e = 0 would make.
+  // Adding zero turns -0, the product for e = 0, into 0.
   const V newton = with_restitution ? number<V>(restitution) * approach + zero : zero;
   if constexpr (!with_horizon) return {newton, zero};
   const V closing = minus(gap) / number<V>(horizon);
   const auto slowed_down_now = but_not(gap > zero, already_slowed_down);
-  // A pair that bore a load has lost its approach before.
+  // A pair with a load has lost its approach in an earlier step.
   const auto newcomer = both(load == zero, separation < closing);
   return {choose(slowed_down_now, smaller(closing, newton), newton),
           choose(both(slowed_down_now, newcomer), approach)};
 }
 
-/// W_tt/W_nn of discs that turn.
+/// Ratio W_tt/W_nn of discs that may rotate.
 template <class V>
 HWY_INLINE V w_ratio(V kappa)
 {
   return number<V>(1) + number<V>(disc_rim_factor) * kappa * kappa;
 }
 
-/// Effect of impulses along the normal and the tangent: (px, py) times its inverse mass is added to
-/// the velocity of i and taken from the velocity of j; `spin`, likewise, is taken from both rim
-/// speeds.
+/// Effect of impulses along the normal and the tangent. Multiplied by the inverse mass of the body,
+/// (px, py) is added to the velocity of i and subtracted from the velocity of j, and `spin` is
+/// subtracted from both rim speeds.
 template <class V>
 struct Push {
   V px, py, spin;
@@ -149,7 +151,7 @@ HWY_INLINE void push(Body& a, Body& b, V weight_a, V weight_b, const Push<V>& p)
   b.vy = b.vy - weight_b * p.py;
 }
 
-/// Velocity of the surface of i along the surface of j, m/s, which friction opposes.
+/// Tangential velocity of the surface of i relative to the surface of j, m/s; friction opposes it.
 template <Effects with, class Contacts, class Body, class V>
 HWY_INLINE V sliding_of(const Contacts& c, const Body& a, const Body& b, V dvx, V dvy)
 {
@@ -164,10 +166,10 @@ struct Limits {
   V least, most;
 };
 
-// The law in whole impulses, and below in increments. Sums are in the order that makes the chain of
-// operations on velocities shortest.
+// The law for WholeImpulses, then for Increments. The order of each sum makes the chain of
+// operations on velocities as short as possible.
 
-/// The impulse along n that would make the separation velocity the rebound.
+/// Normal impulse that would make the separation velocity equal to the rebound.
 template <Effects with, class V>
 HWY_INLINE V rebounding(const WholeImpulses<V>& c, V separation)
 {
@@ -179,7 +181,7 @@ HWY_INLINE V least_impulse(const WholeImpulses<V>&)
 {
   return number<V>(0);
 }
-/// The impulse along t that would stop sliding, and Coulomb's limits.
+/// Tangential impulse that would stop sliding; then Coulomb's limits.
 template <class V>
 HWY_INLINE V sticking(const WholeImpulses<V>& c, V sliding)
 {
@@ -242,8 +244,8 @@ HWY_INLINE Relaxed<V> relaxed(const Increments<V>& c, const Body&, const Body&, 
           with.rotation ? level_t * ratio : level_t};
 }
 
-/// Makes a contact of a and b obey Signorini, Newton and Coulomb while its neighbours hold still.
-/// W_nt = 0 for discs, so normal and tangential parts have each their exact solution.
+/// Makes the contact of a and b obey Signorini, Newton and Coulomb while all other contacts keep
+/// their impulses. W_nt = 0 for discs, so both components are solved exactly, the normal one first.
 template <Effects with, class Contacts, class Body, class V>
 HWY_INLINE Relaxed<V> relax(Contacts& c, Body& a, Body& b, V friction)
 {
@@ -261,7 +263,7 @@ HWY_INLINE Relaxed<V> relax(Contacts& c, Body& a, Body& b, V friction)
   return relaxed<with>(c, a, b, change_n, change_t);
 }
 
-/// The contacts of a block from `lane` on.
+/// Loads as many contacts of a block as a vector has lanes, from `lane` on.
 HWY_INLINE WholeImpulses<Vector> load(const ContactBlock& b, std::size_t lane)
 {
   return {load(b.nx, lane),        load(b.ny, lane),       load(b.kappa, lane),
@@ -276,7 +278,7 @@ HWY_INLINE Increments<hn::Vec<TagOf<float>>> load(const BlockOf<float>& b, std::
           load(b.impulse_n, lane), load(b.impulse_t, lane)};
 }
 
-/// use<with>() for the effects that matter where impulses are applied: restitution does not.
+/// Calls use<with>() with the effects that applying impulses depends on: friction and rotation.
 template <class Use>
 HWY_INLINE void with_effects(Effects e, const Use& use)
 {
@@ -288,7 +290,7 @@ HWY_INLINE void with_effects(Effects e, const Use& use)
     use.template operator()<Effects{true, true, false}>();
 }
 
-/// Applies impulses along the normals and tangents of the lanes of a block that begin at `lane`.
+/// Applies impulses, along normals and tangents, to the bodies of the contacts from `lane` on.
 template <Effects with>
 HWY_INLINE void apply(const ContactBlock& c, std::size_t lane, Vector normal, Vector tangential,
                       double* motion)

@@ -6,8 +6,8 @@
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
 /// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
-/// Methods Appl. Mech. Eng. 177, 235, 1999). This file has them in words, with their
-/// variables; contact_law-inl.hpp has the equations, for one pair or as many as a vector has lanes.
+/// Methods Appl. Mech. Eng. 177, 235, 1999). This file states the laws in words and defines their
+/// variables; contact_law-inl.hpp has the equations, for one pair or for one pair per vector lane.
 ///
 /// A step of length h leads from positions x and velocities v to v+ and x+ = x + h (v + v+)/2.
 /// Contacts are found in the middle of the step, x_m = x + h v/2. For a pair i, j:
@@ -15,76 +15,79 @@
 ///   n, t      unit vector from j to i at mid-step (of a wall: its normal), and t = (-n_y, n_x)
 ///   gap       |x_m,i - x_m,j| - (r_i + r_j), m; below 0 the discs overlap
 ///   u, u+     separation velocity n . (v_i - v_j) before and after the step, m/s
-///   approach  -u; below 0 the pair was parting
+///   approach  -u; negative if the grains move apart
 ///   p_n, p_t  impulse on i over the step, along n and t, kg m/s
+///   W         matrix of the changes of relative velocities by impulses; W_nn: of u by p_n
 ///
-/// Every law demands of a pair that acts in a step:
+/// A pair "acts" in a step if the solver may apply an impulse to it. Every law requires of it:
 ///
 ///   Signorini and Newton  p_n >= 0,  u+ >= rebound,  p_n (u+ - rebound) = 0
 ///   Coulomb               |p_t| <= mu p_n; equal where the surfaces slide after the step
 ///
-/// The laws differ in which pairs act, and in the rebound of pairs that are still apart:
+/// The laws differ in the condition to act, and in the rebound of pairs whose gap is still open:
 ///
 ///   acts      if the gap is at most `margin` after `forecast` more steps of free flight:
 ///             |x_m,i - x_m,j + forecast h (v_i - v_j)| <= r_i + r_j + margin
-///   rebound   e approach, from the velocity before the step (Newton); so a pair that was parting
-///             may come back with e times its velocity (Moreau). If `horizon` > 0, a pair with
-///             gap > 0 is only slowed down, so that its gap lasts `horizon` steps: rebound =
-///             -gap/(horizon h), or less if it was parting. Its approach is remembered, and in the
-///             next step it rebounds with e times that.
+///   rebound   e times the approach before the step (Newton; e: restitution). So a pair that was
+///             moving apart may come back with e times its velocity (Moreau). If `horizon` > 0, a
+///             pair with gap > 0 is only slowed down, so that its gap lasts `horizon` steps:
+///             rebound = -gap/(horizon h), or less if it was moving apart. Its approach is stored;
+///             in the next step the pair rebounds with e times the stored approach.
 ///
-/// So the contacts of a step without friction take (1 - e)/(1 + e) p.W p/2 from the energy, p.W p
-/// summed over all (docs/studies/accuracy.md). Without the return of parting pairs, a light grain
-/// that rattles between heavy ones would drive them apart.
+/// So the contacts of a step without friction dissipate the energy (1 - e)/(1 + e) p.W p/2, p.W p
+/// summed over all contacts (docs/studies/accuracy.md). If pairs that move apart did not come back,
+/// a light grain that rattles between heavy ones would drive these apart.
 ///
-/// A pair that bore an impulse p_n in the step before cannot approach if that step was solved
-/// exactly. An approach below `solver_error` W_nn p_n is taken for the error of the solver: it is
-/// stopped and does not rebound. Otherwise a bed at rest trembles for ever, and light grains under
-/// a heavy one lift it. So does a separation below `parting_error` W_nn p_n not return.
+/// A pair that had an impulse p_n in the previous step cannot approach if that step was solved
+/// exactly. An approach below `solver_error` W_nn p_n is treated as an error of the solver: it is
+/// stopped and does not rebound. Otherwise a bed at rest trembles for ever, and light grains lift
+/// a heavy one above them. A separation below `parting_error` W_nn p_n is ignored alike.
 ///
-/// Overlap is never pushed out, so that no energy enters that way.
+/// Overlap is not corrected: moving grains out of each other would add energy.
 /// docs/studies/accuracy.md compares the laws in flows and impacts.
 namespace grseg {
 
-/// Conditions under which a pair acts. Delays are means over the phase of an isolated impact in the
-/// step.
+/// Conditions under which a pair acts. Delays of an isolated impact ("late", "early") are means
+/// over the time within a step at which the grains touch; e is the coefficient of restitution.
 enum class ContactLaw {
-  /// A pair that would close its gap within `horizon` steps (0.75 by default) is slowed down, and
-  /// rebounds in the next step. Overlap in flows is a quarter of the others' at the same step.
+  /// A pair whose gap would close within `horizon` steps (0.75 by default) is slowed down, and
+  /// rebounds in the next step. At the same step, overlap in flows is a quarter
+  /// of the overlap by other laws.
   speculative,
-  /// A pair that touches at mid-step. Late by (1 + 1/e) h/2; overlap up to |u| h.
+  /// A pair acts if it touches at mid-step. Late by (1 + 1/e) h/2; overlap up to |u| h.
   touch,
-  /// A pair that will have touched by the end of the step. On time; overlap up to |u| h/2.
+  /// A pair acts if it would touch by the end of the step. On time; overlap up to |u| h/2.
   centred,
-  /// A pair that will have touched half a step later. Early by (1 + 1/e) h/2.
+  /// A pair acts if it would touch half a step after the end. Early by (1 + 1/e) h/2.
   predictive
 };
 
-/// Numbers of a law, as defined above. The defaults are ContactLaw::touch.
+/// Parameters of a law, defined at the top of this file. The defaults are ContactLaw::touch.
 struct LawParameters {
-  double forecast = 0;  // steps, from mid-step on
-  double margin = 0;    // m, at least least_margin times the smallest diameter
-  double horizon = 0;   // steps; 0: pairs that are apart rebound like touching ones
+  double forecast = 0;  // steps of free flight after mid-step
+  double margin = 0;    // m, largest gap after the forecast; at least least_margin d_min
+  double horizon = 0;   // steps that an open gap lasts; 0: open pairs rebound like touching ones
 };
 
-/// A contact at rest must not be lost, and its load with it, because the last digit of a position
-/// makes its gap positive. In smallest diameters.
+/// Least margin, in smallest diameters d_min: a contact at rest must not lose its load because the
+/// last digit of a position makes its gap positive.
 constexpr double least_margin = 1e-9;
 
-/// Approach of a pair that bore a load, over W_nn p_n of the step before, that the solver's error
-/// may make. Measured: from 0.003 on beds come to rest to round-off, up to 0.01 overlap in flows is
-/// the same (docs/studies/accuracy.md).
+/// Largest approach, over W_nn p_n of the previous step, that is attributed to the solver's error.
+/// Measured: from 0.003 on, beds come to rest to round-off; up to 0.01, overlap in flows is the
+/// same (docs/studies/accuracy.md).
 constexpr double solver_error = 0.01;
 
-/// Separation of such a pair, likewise. Measured: with 0 overlap in flows is 10 % larger, with 0.1
-/// and 0.3 it is the same as where nothing returns.
+/// Largest separation velocity, over W_nn p_n of the previous step, that is attributed to the
+/// solver's error. Measured: with 0, overlap in flows is 10 % larger; with 0.1 and 0.3 it is the
+/// same as if no separating pair comes back.
 constexpr double parting_error = 0.1;
 
-/// Parameters of a law: the only place in sim that decides what a law means;
-/// analysis/check/contact_violations.cpp states the same for grseg-check. All arguments but `law`
-/// matter to the speculative law alone: its margin is the part that neighbours may add to the
-/// approach of a pair within the horizon, at a velocity of sqrt(g d_S). `horizon` in steps, `step`
-/// in s, `gravity` in m/s^2, `small_diameter` in m.
+/// Parameters of a law. No other place in sim depends on the name of the law;
+/// analysis/check/contact_violations.cpp repeats the parameters for grseg-check. All arguments but
+/// `law` are used by the speculative law alone: its margin is the distance that neighbours may push
+/// a pair together within the horizon, at a velocity of sqrt(g d_S). `horizon` in steps, `step` in
+/// s, `gravity` in m/s^2, `small_diameter` in m.
 inline LawParameters law_parameters(ContactLaw law, double horizon, double step, double gravity,
                                     double small_diameter)
 {
@@ -101,67 +104,67 @@ inline LawParameters law_parameters(ContactLaw law, double horizon, double step,
   return {};
 }
 
-/// Motion of a grain, as its contacts need it. With the rim speed r*omega in place of the angular
-/// velocity the moment of inertia of a disc, m r^2/2, leaves the equations. Aligned, so that one
-/// load fetches it.
+/// Velocities and inverse mass of a grain, used by its contacts. With the rim speed r*omega instead
+/// of the angular velocity, the moment of inertia of a disc, m r^2/2, drops out of the equations.
+/// Aligned, so that one load instruction reads it.
 template <class Real>
 struct alignas(4 * sizeof(Real)) MotionOf {
-  Real vx = 0, vy = 0;    // m/s
+  Real vx = 0, vy = 0;    // m/s, velocity of the centre
   Real rim_speed = 0;     // m/s, radius times angular velocity (counter-clockwise)
   Real inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
 };
 template <>
 struct alignas(4 * sizeof(float)) MotionOf<float> {
   float vx = 0, vy = 0, rim_speed = 0;
-  float unused = 0;  // contacts know the masses, see Increments
+  float unused = 0;  // masses are stored in the contacts, see Increments
 };
 using Motion = MotionOf<double>;
 
-/// A pair that acts, seen from the middle of the step. The normal n points from j to i, the
-/// tangent is t = (-ny, nx). Impulses act ON i and are in kg m/s, over the whole step.
+/// A contact (a pair that acts), with its geometry at mid-step. The normal n points from j to i,
+/// the tangent is t = (-ny, nx). Impulses act ON i, over the whole step.
 ///
-/// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j), so that they add up
-/// to the distance of the centres and angular momentum is conserved whatever the gap.
+/// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j). They add up to the
+/// distance of the centres, so that angular momentum is conserved for any gap.
 ///
-/// Number is a double, or an array or a vector of the numbers of several pairs.
+/// Number is a double, or an array or a vector with one number per contact.
 template <class Number>
 struct WholeImpulses {
   Number nx, ny;
-  Number kappa;                 // 1 at a straight wall
+  Number kappa;                 // lever arm over radius; 1 at a straight wall
   Number mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
   Number rebound;               // m/s, least separation velocity after the step
-  Number impulse_n, impulse_t;  // kg m/s
+  Number impulse_n, impulse_t;  // kg m/s, impulse along n and along t
 };
 
-/// A contact in single precision, where impulses are increments on a `base` that velocities already
-/// contain. The last digit is then relative to the change in a step, not to the load, and a bed at
-/// rest does not creep. Impulses are per mass_n: the relative velocities that they make, of which
-/// each body takes the part that its weight says. So a relaxation needs no mass, and the chain of
-/// its operations is shorter.
+/// A contact in single precision. Its impulses are increments on a `base` impulse, whose effect the
+/// velocities already contain. Round-off is then relative to the change in a step, not to the load,
+/// so that a bed at rest does not creep. Impulses are divided by mass_n, which makes them relative
+/// velocities; weight_i is the fraction of it by which a body's velocity changes. So a relaxation
+/// needs no mass, and its chain of operations is shorter.
 template <class Number>
 struct Increments {
   Number nx, ny;
   Number kappa;
-  Number weight_i, weight_j;    // mass_n over the mass of the body; 0 for one that cannot be moved
+  Number weight_i, weight_j;    // mass_n over the mass of the body; 0 for an immobile body
   Number mass_ratio;            // mass_t/mass_n
-  Number rebound;               // m/s
-  Number base_n, base_t;        // m/s
-  Number impulse_n, impulse_t;  // m/s
+  Number rebound;               // m/s, least separation velocity after the step
+  Number base_n, base_t;        // first guess of the impulse over mass_n, m/s
+  Number impulse_n, impulse_t;  // increment of the impulse over mass_n, m/s
 };
 
 struct Contact : WholeImpulses<double> {
-  std::int32_t i, j;  // entries of the Motion array
+  std::int32_t i, j;  // indices of the two bodies in the array of Motion
 };
 
-/// Effects at the contacts of a scene. An effect left out gives the same bits as its neutral
-/// coefficient: friction 0, restitution 0, and for rotation rim speeds that stay 0.
+/// Effects that are computed at the contacts of a scene. Leaving out an effect produces the same
+/// bits as its neutral coefficient: friction 0, restitution 0, and for rotation rim speeds of 0.
 struct Effects {
   bool friction = true;
   bool rotation = true;
   bool restitution = true;
 };
 
-/// use<flags...>() of flags that are known when the program runs: all combinations are compiled.
+/// Calls use<flags...>() with run-time flags as template arguments: all combinations are compiled.
 template <bool... known, class Use>
 auto with_flags(const Use& use)
 {
@@ -179,22 +182,22 @@ struct Material {
   double restitution = 0.25;  // Newton's e: separation over approach velocity
 };
 
-/// Changes made by relaxing a contact, along the normal and the tangent, and the impulses after it;
-/// both as the relative velocities they stand for (m/s): W times the impulse.
+/// Result of relaxing a contact: change of the impulse, and impulse afterwards (`level`), along the
+/// normal and the tangent. All are multiplied by W, which makes them relative velocities, m/s.
 template <class Number>
 struct Relaxed {
   Number change_n, level_n, change_t, level_t;
 };
 
-/// m r^2/I of a disc: a tangential impulse p_t changes rim speeds by -2 kappa p_t/m.
+/// Ratio m r^2/I of a disc: a tangential impulse p_t changes rim speeds by -2 kappa p_t/m.
 constexpr double disc_rim_factor = 2;
 
-/// Makes one contact obey the law while its neighbours hold still; see relax() in
-/// contact_law-inl.hpp.
+/// Function that makes one contact obey the law while all other contacts keep their impulses:
+/// relax() in contact_law-inl.hpp.
 using Relax = Relaxed<double> (*)(Contact&, Motion&, Motion&, double friction);
 
-/// relax() of a scene's effects. Restitution needs no variant here: without it rebounds are ignored
-/// by setting them 0.
+/// Returns relax() compiled for `effects`. Restitution needs no variant here: callers without
+/// restitution set rebounds to 0.
 Relax choose_relax(Effects effects);
 
 }  // namespace grseg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Words for vectors that several files share. It is compiled once per instruction set, by files
-// that include themselves so (hwy/foreach_target.h).
+// Functions on vectors that several files share. Compiled once per instruction set, by files that
+// include themselves for that purpose (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_LANES
 #undef GRSEG_SIM_LANES
@@ -30,11 +30,11 @@ using D = TagOf<double>;
 using Vector = hn::Vec<D>;
 using Lanes = ContactBlock::Lanes;
 
-// Words for numbers (double and float) and vectors alike.
+// The following functions accept a number (double or float) or a vector.
 
 template <class V>
 constexpr bool is_number = std::is_floating_point_v<V>;
-/// Yes or no, for each lane of a vector.
+/// Result of a comparison: bool, or one bit for each lane of a vector.
 template <class V>
 using MaskOf = decltype(V() > V());
 
@@ -54,7 +54,7 @@ HWY_INLINE V choose(MaskOf<V> condition, V then, V otherwise)
   else
     return hn::IfThenElse(condition, then, otherwise);
 }
-/// Otherwise 0.
+/// `then` if `condition` is true, otherwise 0.
 template <class V>
 HWY_INLINE V choose(MaskOf<V> condition, V then)
 {
@@ -63,8 +63,8 @@ HWY_INLINE V choose(MaskOf<V> condition, V then)
   else
     return hn::IfThenElseZero(condition, then);
 }
-/// The larger and the smaller of two numbers. Zeros of either sign are equal, and b is taken, as
-/// std::max(b, a) and std::min(b, a) do. NEON's own maximum would prefer +0.
+/// Larger and smaller of two numbers. If a and b are equal, also zeros of different sign, the
+/// result is b, as in std::max(b, a) and std::min(b, a). NEON's own maximum would return +0.
 template <class V>
 HWY_INLINE V larger(V a, V b)
 {
@@ -128,14 +128,14 @@ HWY_INLINE hn::Vec<TagOf<Real>> load(const std::array<Real, lanes_of<Real>>& lan
 {
   return hn::Load(TagOf<Real>(), &lanes[lane]);
 }
-/// All bodies as one array of numbers.
+/// All bodies as one array of numbers, four per body.
 template <class Real>
 HWY_INLINE Real* members(MotionOf<Real>* motion)
 {
   return reinterpret_cast<Real*>(motion);
 }
 
-/// The lanes of a mask as bits, the first lane's lowest.
+/// Mask as bits, the first lane in the lowest bit.
 HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask)
 {
   std::uint8_t bits[8];
@@ -143,7 +143,7 @@ HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask)
   return bits[0];
 }
 
-/// Per byte: the numbers of the bits that are set, in order, a byte each.
+/// For each value of a byte: the indices of its set bits, ascending, one byte per index.
 constexpr auto set_bits = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
   for (std::size_t byte = 0; byte < table.size(); ++byte)
@@ -154,8 +154,9 @@ constexpr auto set_bits = [] {
 
 using D32 = hn::CappedTag<std::uint32_t, block_lanes>;
 
-/// Writes `scale` (first + bit) for every bit of a byte that is set, and then anything, to the
-/// eight entries at `to`. (hn::Compress copies its tables to the stack each time with g++ 12.)
+/// Writes `scale` (first + bit) for every set bit of `byte` to the first entries at `to`; the rest
+/// of the eight entries is undefined. (With g++ 12, hn::Compress copies its tables to the stack in
+/// each call.)
 template <std::uint32_t scale>
 HWY_INLINE void store_set_bits(std::uint32_t byte, std::size_t first, std::uint32_t* to)
 {
@@ -168,8 +169,8 @@ HWY_INLINE void store_set_bits(std::uint32_t byte, std::size_t first, std::uint3
   }
 }
 
-/// Writes the numbers, out of eight, whose bits are set to the entries at `to`; the rest of the
-/// eight entries there is undefined.
+/// Copies each of the eight numbers at `from` whose bit of `byte` is set to the first free entry at
+/// `to`; the rest of the eight entries at `to` is undefined.
 HWY_INLINE void store_chosen(std::uint32_t byte, const std::uint32_t* from, std::uint32_t* to)
 {
   const D32 d;
@@ -182,7 +183,7 @@ HWY_INLINE void store_chosen(std::uint32_t byte, const std::uint32_t* from, std:
   }
 }
 
-/// Sum over lanes, always in this order.
+/// Sum over lanes, in the same order on every instruction set.
 HWY_INLINE double sum(const Lanes& s)
 {
   static_assert(block_lanes == 8);
@@ -196,9 +197,9 @@ HWY_INLINE double sum(const BlockOf<float>::Lanes& s)
   return sum(pairs);
 }
 
-/// Clears the upper halves of vector registers, which would slow down all code outside that uses
-/// their lower halves: left dirty, they made the whole program a quarter slower. Compilers usually
-/// do this themselves, but g++ 12 did not where a function ended with a call.
+/// Clears the upper halves of vector registers, which would slow down code elsewhere that uses the
+/// lower halves: without this the whole program was a quarter slower. Compilers usually clear them,
+/// but g++ 12 did not if a function ended with a call.
 HWY_INLINE void leave_vectors()
 {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cstddef>
 
-/// Work shared among threads. Parts must not depend on the order in which they are done, so that
-/// any number of threads gives the same bytes.
+/// Loops shared among threads. Results must not depend on the order in which parts are done, so
+/// that any number of threads produces the same bytes.
 namespace grseg {
 
-/// do_part(k) for k = 0 .. count-1.
+/// Calls do_part(k) for k = 0 .. count-1.
 template <class Part>
 void for_each_part(int threads, std::size_t count, const Part& do_part)
 {
-  if (threads == 1 || count <= 1) {  // even a team of one costs microseconds
+  if (threads == 1 || count <= 1) {  // even a team of one thread costs microseconds
     for (std::size_t k = 0; k < count; ++k) do_part(k);
     return;
   }
@@ -26,8 +26,8 @@ constexpr std::size_t range_count(std::size_t count)
   return (count + range_size - 1) / range_size;
 }
 
-/// do_range(begin, end) for ranges of range_size (the last one is shorter) that make up 0 ..
-/// count-1.
+/// Calls do_range(begin, end) for consecutive ranges of range_size indices that together are 0 ..
+/// count-1; the last range may be shorter.
 template <class Range>
 void for_ranges(int threads, std::size_t count, const Range& do_range)
 {
@@ -36,8 +36,8 @@ void for_ranges(int threads, std::size_t count, const Range& do_range)
   });
 }
 
-/// do_strip(s) for all strips: first the even ones, several at a time, then the odd ones, so that
-/// no two neighbouring strips are worked on at once.
+/// Calls do_strip(s) for all strips: first for even strips, several at a time, then for odd strips,
+/// so that no two neighbouring strips are processed at the same time.
 template <class Strip>
 void for_alternate_strips(int threads, std::size_t count, const Strip& do_strip)
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The instruction sets that Highway compiles for; to be included before Highway itself.
+// Instruction sets for which Highway compiles. Include this file before any header of Highway.
 
-// One per generation of processors. Left out are SSSE3, AVX3_DL, AVX3_ZEN4, AVX3_SPR and AVX10_2,
-// which make no difference to these loops, by their bits in hwy/detect_targets.h: older versions
-// lack some names. Vectors of SVE have no size that the compiler knows, so they cannot be members;
-// processors with SVE have NEON, too.
+// One instruction set per generation of processors. The bits of hwy/detect_targets.h leave out
+// SSSE3, AVX3_DL, AVX3_ZEN4, AVX3_SPR and AVX10_2, which make no difference to these loops; bits
+// are used because older versions lack some names. Vectors of SVE have no size known to the
+// compiler, so they cannot be members; processors with SVE also have NEON.
 #define HWY_DISABLED_TARGETS (0x10D8 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
-// Scalar code is compiled where every processor has vectors, too: it is what vectors are compared
-// with. Highway's imitation of vectors (EMU128) would not be scalar.
+// Scalar code is also compiled if every processor has vectors, because tests compare vectors with
+// it. Highway's emulation of vectors (EMU128) would not be scalar.
 #define HWY_COMPILE_ALL_ATTAINABLE
 #define HWY_BROKEN_EMU128 1

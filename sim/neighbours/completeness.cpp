@@ -25,7 +25,7 @@ Extent velocities_of(const Range& bodies, const std::vector<Motion>& motion)
   return extent;
 }
 
-/// The least that any displacement within `extent` leads along `direction`; infinity for none.
+/// Least component along `direction` of all displacements in `extent`; infinity if it is empty.
 double least_along(const Extent& extent, const Vec2& direction)
 {
   if (extent.isEmpty()) return infinity;
@@ -147,13 +147,14 @@ void Completeness::measure_neighbours(std::size_t band)
   moved_in_band_[band] = std::sqrt(squared);
 }
 
-/// Groups that are not neighbours are a band or a group apart, and may move by that much more.
+/// True if groups that are not neighbours cannot have met. Between them lies a whole band or a
+/// whole group, so their displacement may be larger by its height or width.
 bool Completeness::bands_stay_apart() const
 {
   const double group_width = least_columns_ * column_width_;
   const bool all_are_neighbours = first_group_.back() <= (periodic_ ? 3 : 2);
   Extent below, here;
-  double highest = -infinity;  // of bands two or more below, less the height in between
+  double highest = -infinity;  // displacement of bands two or more below, less the height between
   for (const auto& band : band_moved_) {
     highest = std::max(highest - cell_, below.max().y());
     below = here;

@@ -7,11 +7,11 @@
 #include <bit>
 #include <cmath>
 
-// Highway compiles what follows once per instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/neighbours/detection.cpp"
-// In this order.
+// The order of these headers matters.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include "sim/contact/contact_law-inl.hpp"
@@ -22,19 +22,19 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Effects of a scene; one that it does not have costs nothing.
+/// Effects of a scene, as a template argument, so that an absent effect costs no time.
 struct Variant {
   bool periodic, rotation, restitution, horizon;
 };
 
-/// DetectionSums, lane by lane.
+/// DetectionSums, one number per lane.
 struct alignas(64) LaneSums {
   Lanes overlap{}, largest_overlap{}, fastest_approach{}, load{}, root_loads{}, approaches{};
   std::size_t touching = 0;
   bool coincident = false;
 };
 
-/// Data of a pair as one array of doubles: two for its geometry, four for its memory.
+/// Data of a pair as an array of doubles: two of Geometry, four of Memory.
 HWY_INLINE const double* numbers_of(const Pairs::Geometry* g)
 {
   return &g->shift;
@@ -44,8 +44,8 @@ HWY_INLINE const double* numbers_of(const Pairs::Memory* g)
   return &g->n;
 }
 
-/// Writes the pairs of grains that are closer than reach + margin to `near`, and their bits to
-/// `acting`; returns their number.
+/// Writes the pairs of grains whose distance is below reach + margin to `near`, and one bit per
+/// pair to `acting`; returns the number of these pairs.
 template <bool periodic>
 HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c,
                                        const DetectionRule& rule, NearPairs& near,
@@ -115,7 +115,7 @@ HWY_INLINE Normal<Vector> normal_at_wall(const DetectionRule& rule, const Wall& 
                         hn::Set(d, wall.normal.x()), hn::Set(d, wall.normal.y()));
 }
 
-/// Bodies and entries of the eight pairs of a class that begin at `near`.
+/// Sets the bodies of a block and the entries of its pairs from eight pairs of `near`.
 HWY_INLINE void set_places(const NearPairs& near, std::size_t first, ContactBlock& block,
                            BlockOrigin& origin)
 {
@@ -134,7 +134,7 @@ struct Geometries {
   Vector nx, ny, kappa, gap;
 };
 
-/// Geometries of the pairs of a class, from entry `at` of `near` on.
+/// Geometries of as many pairs as a vector has lanes, from entry `at` of `near` on.
 template <bool periodic>
 HWY_INLINE Geometries geometry_of(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
                                   std::size_t at, const DetectionRule& rule, hn::Mask<D> used,
@@ -170,7 +170,8 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Ma
   add(sums.approaches, fresh * fresh);
 }
 
-/// Eight pairs of a class from `first` of `near` on, with the first guess of their impulses.
+/// Writes a block with eight pairs of a class, from entry `first` of `near` on, including the first
+/// guesses of their impulses.
 template <Variant with>
 HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
                           std::size_t first, const DetectionRule& rule, ContactBlock& block,
@@ -206,8 +207,9 @@ HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearP
   }
 }
 
-/// Fills the last block of a class up with the neutral pair. Pairs without a colour get a block
-/// each: they are moved apart, from the last one on. Returns the number of blocks.
+/// Fills the last block of a class with the neutral pair. In a class of pairs without a colour each
+/// pair becomes a block of its own; pairs are moved to their blocks from the last one on. Returns
+/// the number of blocks.
 std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs& near)
 {
   const auto neutral = static_cast<std::uint32_t>(2 * pairs.size()), nobody = pairs.i.back();
@@ -261,7 +263,7 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
   leave_vectors();
 }
 
-/// The only place where a scene's effects become a compile-time choice.
+/// Calls find() with the effects of the scene as template arguments.
 void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
               StripContacts& contacts, DetectionSums& total)
 {
@@ -313,7 +315,7 @@ namespace {
 HWY_EXPORT(find_for);
 HWY_EXPORT(keep);
 
-/// Room for all pairs of the strip.
+/// Resizes the arrays of a strip for the case that all its listed pairs act.
 void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
 {
   std::size_t most = 0, largest_class = 0;

@@ -7,86 +7,86 @@
 #include <span>
 #include <vector>
 
-/// The listed pairs that act in a step (contact_law.hpp), as blocks for the solver. Vector
-/// instructions as in sweep.hpp: all instruction sets give the same bytes.
+/// Finds the listed pairs that act in a step (contact_law.hpp), and writes them as blocks for the
+/// solver. As in sweep.hpp, all instruction sets produce the same bytes.
 namespace grseg {
 
-/// Where the contacts of a block come from, and their gaps at mid-step.
+/// Gaps of the contacts of a block, and the pairs of the list that they belong to.
 struct alignas(64) BlockOrigin {
-  ContactBlock::Lanes gap;                      // m
-  ContactBlock::Lanes approach;                 // m/s, to be remembered, see Rebound
-  std::array<std::uint32_t, block_lanes> pair;  // 4 times its entry; unused lanes: the neutral one
+  ContactBlock::Lanes gap;                      // m, at mid-step
+  ContactBlock::Lanes approach;                 // m/s, stored for the next step, see Rebound
+  std::array<std::uint32_t, block_lanes> pair;  // 4 times the entry in Pairs; unused lanes: neutral
 
-  std::size_t entry(std::size_t lane) const { return pair[lane] / 4; }  // in Pairs
+  std::size_t entry(std::size_t lane) const { return pair[lane] / 4; }  // index in Pairs
 };
 
-/// The pairs of a class that act: scratch space of find_contacts.
+/// Pairs of a class that act: scratch space of find_contacts.
 struct NearPairs {
-  std::vector<std::uint32_t> pair;  // twice the pair's index
-  std::vector<std::uint32_t> i, j;  // as in Pairs
+  std::vector<std::uint32_t> pair;  // twice the index of the pair in Pairs
+  std::vector<std::uint32_t> i, j;  // twice the index of each body, as in Pairs
 };
 
-/// The contacts of a strip in one step.
+/// Contacts of a strip in one step.
 struct StripContacts {
-  std::vector<ContactBlock> blocks;  // `size` of them are in use; never shrinks
-  std::vector<std::uint32_t> ends;   // as in BlockRuns
+  std::vector<ContactBlock> blocks;  // the first `size` are in use; never shrinks
+  std::vector<std::uint32_t> ends;   // end of each run, as in BlockRuns
   std::vector<BlockOrigin> origins;
   NearPairs near;
-  /// A byte per eight listed pairs, a bit per pair: which act in this step, and in the one before.
+  /// One bit per listed pair, eight in a byte: the pair acts in this step; in the previous step.
   std::vector<std::uint8_t> acting, acted;
-  std::size_t size = 0;     // blocks in use
-  std::size_t on_base = 0;  // first of the blocks whose partners j do not move
-  std::size_t count = 0;    // contacts
-
+  std::size_t size = 0;     // number of blocks in use
+  std::size_t on_base = 0;  // index of the first block whose partners j do not move
+  std::size_t count = 0;    // number of contacts
   BlockRuns used(Range bodies) { return {std::span(blocks).first(size), ends, bodies}; }
 };
 
-/// The law of a step, and the state that it applies to.
+/// Contact law of a step, and the state to which it is applied.
 struct DetectionRule {
-  std::span<const Vec2> ahead;     // m, after the forecast: where a pair must touch to act
-  std::span<const Vec2> middle;    // m, at mid-step: the geometry of the contacts
-  std::span<const Motion> motion;  // at the beginning of the step
+  std::span<const Vec2> ahead;     // m, positions after the forecast (LawParameters)
+  std::span<const Vec2> middle;    // m, positions at mid-step, which set the geometry of contacts
+  std::span<const Motion> motion;  // velocities at the beginning of the step
   std::span<const Wall> walls;
-  double margin = 0;  // m
+  double margin = 0;  // m, LawParameters::margin
   double restitution = 0;
   double horizon = 0;  // s, LawParameters::horizon times the step
   double rim_factor = disc_rim_factor;
-  /// Effects to compute. An effect left out equals its neutral coefficient to the last bit:
-  /// restitution 0, rim_factor 0, shifts 0.
+  /// Effects to compute. Leaving out an effect has the same results to the last bit as its neutral
+  /// coefficient: restitution 0, rim_factor 0, shifts 0.
   Effects effects;
   bool periodic = true;
 };
 
-/// Sums over the contacts that were found.
+/// Sums and maxima over the contacts that were found.
 struct DetectionSums {
-  std::size_t touching = 0;     // gap <= 0 at mid-step
+  std::size_t touching = 0;     // number of pairs with gap <= 0 at mid-step
   double overlap = 0;           // m, sum of -gap over the touching pairs
-  double largest_overlap = 0;   // m
-  double fastest_approach = 0;  // m/s, at the beginning of the step
-  double load = 0;              // kg m/s, sum of p_n of the step before
-  double root_loads = 0;        // (kg m/s)^(1/2), sum of their roots
-  double approaches = 0;        // (m/s)^2, sum of squares over the pairs that had no p_n
-  bool coincident = false;      // the centres of a pair coincide
+  double largest_overlap = 0;   // m, largest -gap
+  double fastest_approach = 0;  // m/s, largest approach at the beginning of the step
+  double load = 0;              // kg m/s, sum of p_n of the previous step
+  double root_loads = 0;        // (kg m/s)^(1/2), sum of sqrt(p_n) of the previous step
+  double approaches = 0;        // (m/s)^2, sum of approach^2 over pairs whose p_n was 0
+  bool coincident = false;      // true if the centres of a pair coincide
 };
 
-/// Finds the contacts of every strip. Sums are added strip by strip.
+/// Finds the contacts of every strip; returns their sums, added strip by strip.
 DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
                             std::vector<StripContacts>& contacts, int threads = 1);
 
-/// Undoes the last find_contacts: the same pairs act as in the step before.
+/// Undoes the last find_contacts: the pairs of the previous step count as acting again.
 void forget_search(std::vector<StripContacts>& contacts);
 
-/// Sums over the contacts that were solved.
+/// Sums over the contacts after the solve.
 struct ImpulseSums {
-  std::size_t force_bearing = 0;     // contacts that carry an impulse
-  double gap_bearing = 0;            // m, sum of |gap| over them
-  Vec2 on_base_side = Vec2::Zero();  // kg m/s, of walls and boundary grains on mobile grains
+  std::size_t force_bearing = 0;     // number of contacts with an impulse
+  double gap_bearing = 0;            // m, sum of |gap| over contacts with an impulse
+  Vec2 on_base_side = Vec2::Zero();  // kg m/s, impulse of walls and base on mobile grains
 };
 
-/// Writes the contacts' impulses, and what else they have to remember, to their pairs.
+/// Stores the impulses and approaches of the contacts in the memories of their pairs.
 ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
                           std::span<Pairs::Memory> memories, int threads = 1);
-/// Lets pairs forget that acted in the step before and do not now; the list must be the same.
+/// Clears the memories of pairs that acted in the previous step and do not act now. The pair list
+/// must be the same in both steps.
 void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
                      std::span<Pairs::Memory> memories, int threads = 1);
 

@@ -11,23 +11,23 @@
 
 namespace grseg {
 
-/// Lengths of a periodic cell that a grain may travel; files count them in 32 bits.
+/// Largest number of cell lengths that a grain may travel; files store the number in 32 bits.
 constexpr std::int32_t most_periods = 1'000'000'000;
 
 /// Variables of the grains, sorted along the cells of the pair list, so that neighbours in space
-/// are near in memory. The entry after the last grain is a body that never moves; it stands for all
-/// walls, and for both partners in unused lanes of a block.
+/// are near in memory. The entry after the last grain is the immobile body, which never moves: the
+/// partner j of contacts at walls, and both partners in unused lanes of a block.
 struct GrainState {
-  std::vector<Vec2> position;       // m; one more than there are grains
-  std::vector<Motion> motion;       // one more than there are grains
-  std::vector<double> radius;       // m
-  std::vector<std::int32_t> image;  // periods to add to x
-  std::vector<std::int32_t> row;    // of Grains
+  std::vector<Vec2> position;       // m, per grain, then the immobile body
+  std::vector<Motion> motion;       // per grain, then the immobile body
+  std::vector<double> radius;       // m, per grain
+  std::vector<std::int32_t> image;  // number of periods to add to x
+  std::vector<std::int32_t> row;    // row of the grain in Grains
 
   std::size_t size() const { return row.size(); }
-  /// Index of the body that never moves.
+  /// Index of the immobile body.
   std::size_t immobile() const { return row.size(); }
-  /// Makes room for as many grains as `other` has.
+  /// Resizes all arrays to the sizes of those in `other`.
   void resize_like(const GrainState& other)
   {
     position.resize(other.position.size(), Vec2::Zero());
@@ -38,7 +38,7 @@ struct GrainState {
   }
 };
 
-/// Grains at rest at `position`, m, in the order of their rows.
+/// State of grains at rest at `position`, m, in the order of their rows.
 inline GrainState make_state(const Grains& grains, const std::vector<Vec2>& position)
 {
   const std::size_t count = position.size();

@@ -20,7 +20,7 @@ std::uint32_t whole_blocks(std::size_t pairs)
   return static_cast<std::uint32_t>((pairs + block_lanes - 1) / block_lanes * block_lanes);
 }
 
-/// Class of the pair a, b; marks its colour as taken.
+/// Returns the class of the pair a, b and marks its colour as taken by both bodies.
 std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState& grains,
                        std::vector<PairColours::Taken>& taken)
 {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <limits>
 
-// Highway compiles what follows once per instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/neighbours/pair_list_lanes.cpp"
-// In this order.
+// The order of these headers matters.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include "sim/contact/bodies-inl.hpp"
@@ -21,8 +21,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Displacements of a group of four bodies or more, eight doubles at a time; the last eight may
-/// overlap those before.
+/// Extent of the displacements of a group of at least four bodies. Eight doubles (four bodies) are
+/// processed at a time; the last eight may include bodies that were already processed.
 HWY_INLINE Extent measure_group(const double* from, const double* to, Range group)
 {
   const D d;
@@ -67,8 +67,8 @@ void measure(const double* from, const double* to, std::span<const Range> groups
   leave_vectors();
 }
 
-/// Looks for pairs of body `a` with the bodies of a range, to whose x `offset` is added; appends
-/// their partners to the `count` found so far.
+/// Finds the partners of body `a` in a range of bodies, to whose x `offset` is added. Writes them
+/// to `found` after the `count` partners found so far, and adds to `count`.
 template <bool periodic>
 HWY_INLINE void find_with(const Discs& discs, std::size_t a, Range range, double skin,
                           double offset, double length, std::uint32_t* found, std::size_t& count)
@@ -120,7 +120,7 @@ void find_near_for(const Discs& discs, const Search& search, double skin, FoundP
     find_near_of<false>(discs, search, skin, found);
 }
 
-/// Which of eight memories are of an impulse, as bits.
+/// One bit for each of eight memories: 1 if it has an impulse.
 HWY_INLINE std::uint32_t bearing(const double* memory)
 {
   const D d;
@@ -133,7 +133,7 @@ HWY_INLINE std::uint32_t bearing(const double* memory)
   return bits;
 }
 
-/// Index of the found pair (a, b); the number of pairs if there is none.
+/// Index of the pair (a, b) in `found`; found.size() if it is not there.
 HWY_INLINE std::size_t find_pair(const FoundPairs& found, std::uint32_t a, std::uint32_t b)
 {
   const D32 d;
@@ -187,7 +187,7 @@ void measure_displacements(std::span<const Vec2> from, std::span<const Vec2> to,
 
 void find_near(const Discs& discs, const Search& search, double skin, FoundPairs& found)
 {
-  // Vectors are stored whole: room for all that could be found, and for one more vector.
+  // Space for all possible pairs and one vector more, because only whole vectors are stored.
   const auto size = [](Range range) { return std::size_t{range.end} - range.begin; };
   const std::size_t partners = search.end - search.cell.begin + size(search.above) +
                                size(search.across) + size(search.across_above);

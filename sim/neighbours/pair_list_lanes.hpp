@@ -9,55 +9,54 @@
 #include <span>
 #include <vector>
 
-/// The parts of the pair list that visit every grain or pair, with vector instructions. All
-/// instruction sets give the same bytes.
+/// Loops of the pair list over all grains or pairs; the same bytes on all instruction sets.
 namespace grseg {
 
-/// Bounding box of a set of displacements, m, or of velocities, m/s; empty for none.
+/// Bounding box of a set of displacements, m, or velocities, m/s; empty for an empty set.
 using Extent = Eigen::AlignedBox2d;
 
-/// Extents of the displacements of each group's bodies from `from` to `to`, m.
+/// Writes, per group, the extent of the displacements of its bodies from `from` to `to`, m.
 void measure_displacements(std::span<const Vec2> from, std::span<const Vec2> to,
                            std::span<const Range> groups, std::span<Extent> moved);
 
-/// Bodies, member by member, and room for eight more.
+/// Positions and radii of all bodies, one array per member, each with eight additional entries.
 struct Discs {
   std::vector<double> x, y, radius;  // m
 };
 
-/// The bodies of a cell, and the ranges in which their partners are.
+/// Bodies of a cell, and ranges of bodies among which the partners of their pairs are searched.
 struct Search {
-  Range cell{};
-  std::uint32_t end = 0;           // in the band of the cell: from each body up to here
-  Range above{};                   // in the band above
-  Range across{}, across_above{};  // beyond the border of the strip, in both bands
-  double offset = 0;               // m, to add to x of those beyond the border
-  double length = 0;               // m, period of x if either image may be the nearest, else 0
+  Range cell{};                    // bodies of the cell
+  std::uint32_t end = 0;           // end of the partners (after the body) in the band of the cell
+  Range above{};                   // partners in the band above
+  Range across{}, across_above{};  // partners beyond the border of the strip, in both bands
+  double offset = 0;               // m, added to x of partners beyond the border
+  double length = 0;               // m, period of x if both images must be tried, else 0
 };
 
-/// Pairs in the order of their first body: pairs begin[a] .. begin[a+1]-1 belong to body a.
+/// Pairs in the order of their first body a: pairs begin[a] .. begin[a+1]-1, with second bodies b.
 struct FoundPairs {
   std::vector<std::uint32_t> begin, b;
 
   std::size_t size() const { return begin.empty() ? 0 : begin.back(); }
 };
 
-/// Adds to `found` the pairs whose gap is at most `skin`, m. `found.begin` must end with the entry
-/// of the first body of the cell; `b` may be longer than there are pairs.
+/// Appends to `found` the pairs whose gap is at most `skin`, m. The last entry of `found.begin`
+/// must belong to the first body of the cell; `found.b` may have more entries than there are pairs.
 void find_near(const Discs& discs, const Search& search, double skin, FoundPairs& found);
 
-/// Memories of the pairs in an old list, and their places in the new one.
+/// Memories of the pairs in an old list, and data that locate the same pairs in the new list.
 struct CarryOver {
-  const std::uint32_t *i, *j;   // of the old pairs: twice the bodies' old indices
-  const std::uint32_t* place;   // new index of each old body
-  const FoundPairs* found;      // the new pairs
-  const std::uint32_t* number;  // entry of each in the new list
-  const double* memory;         // Pairs::Memory, four per old pair
-  double* to_memory;            // and per new pair
+  const std::uint32_t *i, *j;   // per old pair, twice the old indices of its bodies
+  const std::uint32_t* place;   // per old index of a body, its new index
+  const FoundPairs* found;      // pairs of the new list
+  const std::uint32_t* number;  // per pair in `found`, its entry in the new list
+  const double* memory;         // Pairs::Memory of the old pairs, four doubles each
+  double* to_memory;            // Pairs::Memory of the new pairs
 };
 
-/// Copies the memories of pairs that stay and have an impulse: old pairs first .. last-1, both
-/// multiples of 8.
+/// Copies the memories of old pairs first .. last-1 that have an impulse and are in the new list;
+/// `first` and `last` are multiples of 8.
 void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last);
 
 }  // namespace grseg

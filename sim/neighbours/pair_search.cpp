@@ -11,12 +11,12 @@
 namespace grseg {
 namespace {
 
-// A strip's contacts fit into the second cache, and there are several for every thread.
+// The contacts of a strip fit into the second-level cache, and each thread has several strips.
 constexpr std::size_t grains_per_strip = 3500;
-// From two columns on, contacts of strips that are not neighbours share no grain.
+// Two columns are enough that contacts of strips that are not neighbours share no grain.
 constexpr std::int32_t least_columns_per_strip = 4;
 
-/// The index below `x`, or the nearest one that exists; 0 if x is not a number.
+/// Largest index not above `x`, limited to 0 .. count-1; 0 if x is not a number.
 std::int32_t nearest_index(double x, std::int32_t count)
 {
   return x > 0 ? static_cast<std::int32_t>(std::min(x, count - 1.0)) : 0;
@@ -62,7 +62,8 @@ void CellGrid::lay(std::span<const Vec2> position)
   bottom_ = low.y();
   left_ = length_ > 0 ? 0 : low.x();
   const double width = length_ > 0 ? length_ : high.x() - low.x();
-  // A grain that flies far away must not cost memory: what lies beyond shares the last cells.
+  // A limit to the number of cells, so that a grain that flies far away costs no memory: grains
+  // beyond the grid belong to the last cells.
   const double most = 4.0 * static_cast<double>(position.size()) + 16;
   columns_ = static_cast<std::int32_t>(std::clamp(std::floor(width / cell_), 1.0, most));
   if (length_ > 0 && columns_ < 3) columns_ = 1;
@@ -129,7 +130,7 @@ Search CellGrid::search(std::size_t strip, std::int32_t column, std::int32_t ban
   search.end = bodies(column, right, band).end;
   if (above) search.above = bodies(left, right, band + 1);
   if (columns_ == 1) {
-    search.length = length_;  // either image may be the nearest
+    search.length = length_;  // the nearest image may be on either side
     return search;
   }
   if (column == first && above) {

@@ -12,39 +12,40 @@
 
 namespace grseg {
 
-/// Cells at least as wide as pairs reach, in columns along x and bands across y, and the order of
-/// bodies along them. Wide scenes are cut into strips of columns; the order is strip by strip, band
-/// by band, column by column. The number of strips follows from the number of grains alone; it is
-/// even if x is periodic, so that no two strips of even number are neighbours.
+/// Grid of cells in columns along x and bands across y, and the order of bodies along the cells. A
+/// cell is at least as wide as the largest distance of a listed pair. Wide scenes are cut into
+/// strips, which consist of neighbouring columns. Bodies are ordered by strip, then by band, then
+/// by column. The number of strips depends on the grains and the grid, not on the number of
+/// threads; it is even if x is periodic, so that no two strips of even index are neighbours.
 class CellGrid {
  public:
-  /// Scenes of fewer grains are one strip.
+  /// Number of grains from which on a scene is cut into strips.
   static constexpr std::size_t cut_from = 10000;
 
   CellGrid(const Box& box, double cell, int threads);
 
-  /// Lays the grid over `position`, m, and finds the order of the bodies.
+  /// Fits the grid to `position`, m, and determines the order of the bodies.
   void sort(std::span<const Vec2> position);
-  /// Indices before the sort, in the order after it.
+  /// For each body in the new order, its index before sort().
   const std::vector<std::uint32_t>& order() const { return order_; }
 
   std::int32_t columns() const { return columns_; }
   std::int32_t bands() const { return bands_; }
   double column_width() const { return column_width_; }  // m
-  /// Bodies of neighbouring columns of a strip in a band.
+  /// Bodies of the columns first .. last of one strip, in a band.
   Range bodies(std::int32_t first, std::int32_t last, std::int32_t band) const
   {
     return {begin_[cell(first, band)], begin_[cell(last, band) + 1]};
   }
 
   std::size_t strips() const { return first_column_.size() - 1; }
-  /// First column of a strip; of the one after the last, the number of columns.
+  /// First column of a strip; for strip = strips(), the number of columns.
   std::int32_t first_column(std::size_t strip) const { return first_column_[strip]; }
   Range bodies_of_strip(std::size_t strip) const;
 
-  /// Where the partners of a cell's bodies are; every pair is found from one of its cells only.
+  /// Ranges that include the partners of a cell's bodies. Every pair is found from one cell only.
   Search search(std::size_t strip, std::int32_t column, std::int32_t band) const;
-  /// x brought into [0, period).
+  /// x, m, moved into [0, period) by whole periods.
   double wrapped(double x) const;
 
  private:
@@ -58,36 +59,37 @@ class CellGrid {
     return base_[c] + static_cast<std::size_t>(band) * width_[c];
   }
 
-  double length_, inverse_length_;  // m; 0 and 0 where nothing is periodic
-  double cell_;                     // m
+  double length_, inverse_length_;  // period, m, and 1/period; both 0 without periodicity
+  double cell_;                     // m, least size of a cell
   int threads_;
   std::int32_t columns_ = 1, bands_ = 1;
   double left_ = 0, bottom_ = 0, column_width_ = 1, columns_per_metre_ = 1;
-  std::vector<std::int32_t> first_column_{0, 1};  // per strip, and behind the last
-  std::vector<std::size_t> base_, width_;         // per column: its lowest cell, its strip's width
-  std::vector<std::uint32_t> begin_;              // per cell, and behind the last
+  std::vector<std::int32_t> first_column_{0, 1};  // per strip; then number of columns
+  std::vector<std::size_t> base_, width_;         // per column: lowest cell; columns of its strip
+  std::vector<std::uint32_t> begin_;              // per cell, first body; then their number
   std::vector<std::uint32_t> cell_of_, next_, order_;
 };
 
-/// Finds all pairs nearer than `skin`, cell by cell, and sorts the bodies along the cells.
+/// Finds all pairs with a gap of at most `skin`, and sorts the bodies along the cells.
 struct PairSearch {
   struct Strip {
     FoundPairs found;
-    /// Mobile bodies nearer than `skin` to each wall, ascending.
+    /// Per wall, the mobile bodies with a gap of at most `skin` to it, ascending.
     std::vector<std::vector<std::uint32_t>> at_wall;
   };
 
-  /// Lengths in m; `cell` is d_max + skin.
+  /// All lengths in m; `cell` is d_max + skin.
   PairSearch(const std::vector<Wall>& walls, const Box& box, double cell, double skin, int threads);
 
-  /// Pairs of grains at `position`, m. Sorts `grains`; indices of bodies are those after the sort.
+  /// Finds the pairs of grains at `position`, m, and sorts `grains`. In all results, indices of
+  /// bodies are the indices after the sort.
   void find(GrainState& grains, const std::vector<Vec2>& position);
 
   CellGrid grid;
-  std::vector<Vec2> made_at;         // m, of the sorted bodies, as they were passed to find()
-  std::vector<std::uint32_t> place;  // new index of each old body
+  std::vector<Vec2> made_at;         // m, positions that were passed to find(), sorted
+  std::vector<std::uint32_t> place;  // per index of a body before the sort, its new index
   std::vector<Strip> strips;
-  FoundPairs found;  // of all strips
+  FoundPairs found;  // pairs of all strips
 
  private:
   void sort_along_cells(GrainState& grains, const std::vector<Vec2>& position);
@@ -95,9 +97,9 @@ struct PairSearch {
   void join_found(std::size_t grains);
 
   std::vector<Wall> walls_;
-  double skin_;  // m
+  double skin_;  // m, largest gap of a listed pair
   int threads_;
-  // Scratch space, kept so that it is not allocated again.
+  // Scratch space; members so that its memory is reused.
   GrainState sorted_;
   Discs discs_;
 };

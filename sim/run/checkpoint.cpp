@@ -22,9 +22,9 @@ using namespace hdf5;
 
 constexpr std::int32_t format_version = 1;
 
-static_assert(std::endian::native == std::endian::little, "memory and file hold the same bytes");
+static_assert(std::endian::native == std::endian::little, "files and memory are little-endian");
 
-/// A Vec2 and a Wall are rows of so many numbers.
+/// Number of columns of a dataset of T: a Vec2 is a row of 2 numbers, a Wall of 4.
 template <class T>
 constexpr hsize_t columns_of = std::is_same_v<T, Vec2>   ? 2
                                : std::is_same_v<T, Wall> ? 4
@@ -36,7 +36,7 @@ constexpr bool is_real = std::is_same_v<T, double> || columns_of<T> > 1;
 template <class T>
 constexpr H5T_class_t kind_of = is_real<T> ? H5T_FLOAT : H5T_INTEGER;
 
-/// Type of a number, in file and memory.
+/// HDF5 type of the numbers of T, in file and memory.
 template <class T>
 hid_t type_of()
 {
@@ -74,7 +74,7 @@ struct Writer {
 
 struct Reader {
   hid_t file;
-  const std::string& name;  // of the file
+  const std::string& name;  // name of the file
 
   void operator()(const char* path, std::string& text) const
   {
@@ -82,7 +82,7 @@ struct Reader {
     const Type type(H5Dget_type(dataset.id()));
     text.resize(H5Tget_size(type));
     dataset.read_all(type, text.data());
-    text.erase(std::min(text.find('\0'), text.size()));  // padding
+    text.erase(std::min(text.find('\0'), text.size()));  // removes the padding
   }
   template <class T>
   void operator()(const char* path, std::vector<T>& values) const
@@ -194,7 +194,7 @@ Checkpoint read_checkpoint(const std::string& path)
   const auto previous = previous_of(path);
   const auto hint = [&](const ToolError& wrong) {
     return std::filesystem::exists(previous)
-               ? fmt::format("{}; {} is the checkpoint before it", wrong.what(), previous)
+               ? fmt::format("{}; {} is the previous checkpoint", wrong.what(), previous)
                : wrong.what();
   };
   try {

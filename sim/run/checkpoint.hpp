@@ -10,38 +10,39 @@
 
 namespace grseg {
 
-/// How much of its trajectory a run has written.
+/// Part of its trajectory that a run has written.
 struct TrajectoryProgress {
-  std::uint64_t frames = 0;  ///< written
-  std::uint64_t digest = 0;  ///< chained over them
+  std::uint64_t frames = 0;  ///< number of frames written
+  std::uint64_t digest = 0;  ///< digest of these frames (digest.hpp)
   Recorder::State recorder;
-  double begin = 0;  ///< s, time of the run at which this trajectory begins
-  double wall = 0;   ///< s, spent on it
+  double begin = 0;  ///< s, time of the flow at which this trajectory begins
+  double wall = 0;   ///< s, wall-clock time spent on the trajectory
 };
 
-/// A run between two steps: all that later steps depend on, and what later frames state about the
-/// steps before. No random number is drawn after the deposition, so there is no random state.
+/// State of a run between two steps: everything that later steps depend on, and the totals of
+/// earlier steps that later frames include. No random number is drawn after the deposition, so
+/// there is no state of random numbers.
 struct Checkpoint {
-  std::string scene;    ///< as resolved, itself a scene file
-  std::string program;  ///< that wrote it
-  std::string history;  ///< one line per program run that led here
+  std::string scene;    ///< scene with all keys, as text of a scene file
+  std::string program;  ///< name and version of the program that wrote the checkpoint
+  std::string history;  ///< command lines that led to this state, one per line
   Grains grains;
   std::vector<Wall> walls;
   Box box;
-  double deposited_height = 0;  ///< m
+  double deposited_height = 0;  ///< m, height of the deposited bed
   Simulation::State state;
   TrajectoryProgress trajectory;
 };
 
-/// Writes `checkpoint` whole or not at all: as PATH.part, flushed to disk, then renamed. A whole
-/// checkpoint that had the name is kept as previous_of(path) (run_files.hpp); at every moment there
-/// is a whole one. An HDF5 file, laid out as formats/README.md says. RunError where it cannot be
-/// written.
+/// Writes `checkpoint` completely or not at all: to PATH.part, which is flushed to disk, then
+/// renamed. A valid checkpoint of the same name is retained as previous_of(path) (run_files.hpp),
+/// so that a valid one exists at every moment. The file is HDF5, described in formats/README.md.
+/// Throws RunError if it cannot be written.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
-/// UsageError where `path` is missing, FormatError where it is not a checkpoint, is damaged (its
-/// digest detects any changed bit), is of another version, or holds what no run can continue from
-/// (checkpoint_entries.hpp). The sentence names the previous checkpoint where there is one.
+/// Throws UsageError if `path` is missing. Throws FormatError if it is not a checkpoint, is damaged
+/// (the digest detects any changed bit), has another version, or contains values from which no run
+/// can continue (checkpoint_entries.hpp). The message names any previous checkpoint.
 Checkpoint read_checkpoint(const std::string& path);
 
 }  // namespace grseg

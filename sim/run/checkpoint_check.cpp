@@ -16,11 +16,11 @@
 namespace grseg {
 namespace {
 
-constexpr std::uint64_t largest_count = 1'000'000'000'000'000;  // a double counts up to there
-constexpr double farthest = 1e12;     // in d_S: beyond, a double knows no distance of neighbours
-constexpr double largest_radius = 1;  // in d_L, or in base-diameter
-constexpr std::size_t most_in_cell = 64;  // grains whose centres lie in one square of side d_S
-constexpr double unit_tolerance = 1e-9;   // of the length of a normal
+constexpr std::uint64_t largest_count = 1'000'000'000'000'000;  // exact in a double
+constexpr double farthest = 1e12;         // in d_S; limited by the precision of a double
+constexpr double largest_radius = 1;      // in d_L or base-diameter, whichever is larger
+constexpr std::size_t most_in_cell = 64;  // centres of grains in one square of side d_S
+constexpr double unit_tolerance = 1e-9;   // accepted error of the length of a normal
 
 bool finite(double x)
 {
@@ -47,7 +47,7 @@ class Check {
     in_scene(scene());
   }
 
-  /// Requirements on every entry: as many values as there are grains or pairs, and finite numbers.
+  /// Checks every entry: one value per grain or pair, and only finite numbers.
   template <class T>
   void operator()(const char* path, const T& value) const
   {
@@ -74,8 +74,8 @@ class Check {
   [[noreturn]] void fail(const std::string& what) const
   {
     throw FormatError(fmt::format(
-        "{}: {}: this was not written by grseg-sim, or is damaged; use an older checkpoint", name_,
-        what));
+        "{}: {}: the file was not written by grseg-sim, or is damaged; use an older checkpoint",
+        name_, what));
   }
   void require(bool valid, const std::string& what) const
   {
@@ -87,7 +87,7 @@ class Check {
     for (std::size_t k = 0; k < values.size(); ++k)
       if (!valid(values[k])) fail(fmt::format("{}, entry {}, {}", path, k, what));
   }
-  /// Each of 0, 1, 2 ... or whatever number once.
+  /// Fails if a value occurs twice.
   void each_once(const char* path, std::vector<std::int32_t> values) const
   {
     std::sort(values.begin(), values.end());
@@ -129,7 +129,7 @@ class Check {
     each(
         "/state/image", c_.state.image,
         [](std::int32_t image) { return image >= -most_periods && image <= most_periods; },
-        "is not a number of periods");
+        "is not a number of periods from -1e9 to 1e9");
     const auto n = static_cast<std::int32_t>(c_.grains.size());
     each(
         "/state/row", c_.state.row, [n](std::int32_t row) { return row >= 0 && row < n; },
@@ -140,19 +140,21 @@ class Check {
   void pairs() const
   {
     const auto& pairs = c_.state.pairs;
-    // An entry is twice the place of a body; the last body stands for walls.
+    // Entries are twice the index of a body; the last body is the immobile one.
     const auto bodies = c_.grains.size() + 1;
     const auto a_body = [bodies](std::uint32_t i) { return i % 2 == 0 && i / 2 < bodies; };
     each("/state/pairs/i", pairs.i, a_body, "is not a grain");
     each("/state/pairs/j", pairs.j, a_body, "is not a grain");
     require(pairs.skin > 0, "/state/pairs/skin is not a positive length");
-    require(pairs.renewals <= largest_count, "/state/pairs/renewals is not a number of lists");
+    require(pairs.renewals <= largest_count,
+            "/state/pairs/renewals is too large for a number of pair lists");
   }
 
   void trajectory() const
   {
     const auto& trajectory = c_.trajectory;
-    require(trajectory.frames <= largest_count, "/trajectory/frames is not a number of frames");
+    require(trajectory.frames <= largest_count,
+            "/trajectory/frames is too large for a number of frames");
     require(trajectory.wall >= 0, "/trajectory/wall is not a duration in s");
     const auto& [since_frame, totals] = trajectory.recorder;
     for (const auto& [group, t] :
@@ -166,7 +168,7 @@ class Check {
     try {
       return scene_of(c_, name_);
     } catch (const ToolError& wrong) {
-      fail(fmt::format("/scene is not one ({})", wrong.what()));
+      fail(fmt::format("/scene is not a scene ({})", wrong.what()));
     }
   }
 
@@ -178,18 +180,18 @@ class Check {
     const double most = largest_radius * std::max(scene.large_diameter, scene.base_diameter);
     each(
         "/grains/radius", c_.grains.radius, [most](double radius) { return radius <= most; },
-        "is larger than the diameter of large grains and base grains");
+        "is larger than the diameters of large grains and base grains");
     require(c_.state.pairs.skin <= 2 * most, "/state/pairs/skin is larger than a large grain");
     const double end = farthest * scene.small_diameter;
     const auto near = [end](const Vec2& x) { return x.cwiseAbs().maxCoeff() <= end; };
     for (const auto& [path, positions] : {std::pair{"/state/position", &c_.state.position},
                                           {"/state/pairs/made_at", &c_.state.pairs.made_at}}) {
-      each(path, *positions, near, "is too far away");
+      each(path, *positions, near, "is farther than 1e12 d_S from the origin");
       not_crowded(path, *positions, scene.small_diameter);
     }
   }
 
-  /// Grains in one place would all be pairs of each other: more than fit into memory.
+  /// Fails if many grains are in one place: the pairs of all with each other would fill the memory.
   void not_crowded(const char* path, const std::vector<Vec2>& positions, double cell) const
   {
     std::vector<std::pair<std::int64_t, std::int64_t>> cells;

@@ -28,8 +28,8 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
   at("divided", totals.divided);
 }
 
-/// Calls `visit` with every entry of a checkpoint and its path: writing, reading, the digest and
-/// the check share this list.
+/// Calls `visit` with the path and the value of every entry of a checkpoint. Writing, reading,
+/// digest and check use this list.
 template <class Visitor, class SomeCheckpoint>
 void visit_all(Visitor& visit, SomeCheckpoint& c)
 {
@@ -68,10 +68,9 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit_totals(visit, "/trajectory/totals/", c.trajectory.recorder.totals);
 }
 
-/// Checks that a run can continue from the values of a checkpoint: everything that is used as an
-/// index, a count or a physical number is one. The digest only shows that values are as they were
-/// written, and a file by other hands has a digest, too. FormatError naming the file `name`, the
-/// entry and the remedy.
+/// Checks that a run can continue from a checkpoint: all indices, counts and physical values are in
+/// range. The digest only proves that values have not changed since they were written, possibly by
+/// another program. Throws FormatError, which names the file `name`, the entry and the remedy.
 void check_checkpoint(const Checkpoint& checkpoint, const std::string& name);
 
 }  // namespace grseg

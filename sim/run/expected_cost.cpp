@@ -19,8 +19,8 @@ namespace {
 // Measured on chutes of 3,400 and 13,600 grains.
 constexpr double memory_without_grains = 25e6, memory_of_grain = 5500;  // bytes
 constexpr double contacts_per_grain = 1.7;
-constexpr double usual_grain_step = 4e-7;                   // s, for the choice whether to measure
-constexpr double worth_measuring = 60, measured_for = 0.3;  // s
+constexpr double usual_grain_step = 4e-7;                   // s, to decide whether to measure
+constexpr double worth_measuring = 60, measured_for = 0.3;  // s; of a run, of the measurement
 
 double bytes_of_frame(const Scene& scene, double grains)
 {
@@ -28,7 +28,7 @@ double bytes_of_frame(const Scene& scene, double grains)
   return grains * (7 * number + 2 * whole) + contacts_per_grain * grains * (5 * number + 2 * whole);
 }
 
-/// A small bed of the same grains, which flows as the scene does where that is a chute.
+/// Scene of a small bed of the same grains. If `scene` is a chute, the bed flows alike.
 Scene small_bed(const Scene& scene)
 {
   auto small = scene;
@@ -41,7 +41,7 @@ Scene small_bed(const Scene& scene)
   return small;
 }
 
-/// s for one step of one grain, where the small bed comes to rest.
+/// Wall-clock time for one step of one grain, s; no value if the small bed does not come to rest.
 std::optional<double> measured_grain_step(const Scene& scene)
 try {
   using clock = std::chrono::steady_clock;
@@ -60,7 +60,7 @@ try {
   return std::nullopt;
 }
 
-/// Its value with the unit that leaves two or three digits.
+/// Size in kB, MB, GB or TB with two or three digits, such as "1.5 GB".
 std::string bytes_in_words(double bytes)
 {
   const char* units[] = {"kB", "MB", "GB", "TB"};
@@ -102,7 +102,7 @@ std::string to_text(const ExpectedCost& cost)
   const auto file = bytes_in_words(cost.file);
   auto text =
       fmt::format("{:.0f} grains, {} of memory, {}", cost.grains, bytes_in_words(cost.memory),
-                  cost.of_rest ? file + " more of frames" : "a file of " + file);
+                  cost.of_rest ? file + " of new frames" : "a file of " + file);
   if (cost.seconds) text += ", about " + seconds_in_words(*cost.seconds);
   return text;
 }
@@ -119,7 +119,7 @@ void require_room(const ExpectedCost& cost, const std::string& output)
   const auto require = [](double needed, double free, const std::string& where) {
     if (needed > free)
       throw UsageError(fmt::format(
-          "this run needs about {} {}, where {} are free; choose a smaller scene, or --force it",
+          "this run needs about {} {}, but {} are free; choose a smaller scene, or pass --force",
           bytes_in_words(needed), where, bytes_in_words(free)));
   };
   require(cost.memory, free_memory(), "of memory");

@@ -8,30 +8,30 @@
 
 namespace grseg {
 
-/// Cost of a run before it begins, correct within a factor of about 1.5.
+/// Cost of a run, estimated before it begins, within a factor of about 1.5.
 struct ExpectedCost {
-  double grains = 0;              // in the bed and its boundary
-  double memory = 0;              // bytes
+  double grains = 0;              // number of grains, including boundary grains
+  double memory = 0;              // bytes of memory
   double file = 0;                // bytes of the trajectory, before compression
-  std::optional<double> seconds;  // where it was measured
-  bool of_rest = false;           // from a restart on
+  std::optional<double> seconds;  // s, wall-clock time, if it was estimated
+  bool of_rest = false;           // true if only the rest of a run, after a restart, is included
 };
 
 enum class Measure { where_long, always };
 
-/// Cost of a run of `scene` from `begin`, s, to its end; with its deposition where `begin` is 0.
-/// Time is measured, on a small bed of the same grains for less than a second; by default only
-/// where it may be a minute or more.
+/// Cost of a run of `scene` from the time `begin`, s, to its end, including the deposition if
+/// `begin` is 0. The time is estimated from a small bed of the same grains, which is simulated for
+/// less than a second; by default only if the run may last a minute or more.
 ExpectedCost expected_cost(const Scene& scene, double begin = 0,
                            Measure measure = Measure::where_long);
 
-/// "3,357 grains, 43 MB of memory, a file of 1.5 GB, about 3 minutes".
+/// Text such as "3357 grains, 43 MB of memory, a file of 1.5 GB, about 3 minutes".
 std::string to_text(const ExpectedCost& cost);
 
-/// A table of one row: grains, memory[bytes], file[bytes], time[s].
+/// Table of one row: grains, memory[bytes], file[bytes], time[s].
 std::string to_table(const ExpectedCost& cost);
 
-/// UsageError where memory or the disk of `output` have less room than `cost` needs.
+/// Throws UsageError if free memory, or free space on the disk of `output`, is less than `cost`.
 void require_room(const ExpectedCost& cost, const std::string& output);
 
 }  // namespace grseg

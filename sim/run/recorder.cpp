@@ -12,12 +12,12 @@
 namespace grseg {
 namespace {
 
-// In d_S, of the mean overlap. Grains that approach by more in a step may overlap by as much.
+// Largest mean overlap, in d_S, unless the largest approach in a step is larger.
 constexpr double most_overlap = 0.01;
 
-/// Sources of a frame's observables.
+/// Data from which the observables of a frame are computed.
 struct Written {
-  const StepTotals& t;  // since the frame before
+  const StepTotals& t;  // totals since the previous frame
   const Simulation& simulation;
   const Frame<2>& frame;
   EnergyBalance energy;
@@ -143,8 +143,8 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
   const double overlap = state_.since_frame.mean_overlap() / small_diameter_;
   if (overlap > std::max(most_overlap, approach / small_diameter_))
     throw RunError(fmt::format(
-        "the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S and above what the "
-        "fastest grains make in a step; use a smaller step or tolerance",
+        "the mean overlap is {:.2g} d_S at t = {:.6g} s, above {} d_S and above the largest "
+        "displacement in a step; use a smaller step or tolerance",
         overlap, frame.time, most_overlap));
 }
 

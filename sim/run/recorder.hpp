@@ -10,25 +10,25 @@
 
 namespace grseg {
 
-/// In d_S: an overlap above this, and above what the fastest approach makes in a step, means that a
-/// grain passes into another one or into a wall.
+/// Overlap, in d_S, above which a grain counts as passing into another one or into a wall, if the
+/// fastest approach in one step does not explain the overlap.
 constexpr double deep_overlap = 0.25;
 
-/// Sums and extremes over the reports of steps.
+/// Sums and maxima over the reports (StepReport) of several steps.
 struct StepTotals {
   std::int64_t steps = 0;
-  std::int64_t missed = 0;  ///< steps that ended above the tolerance
+  std::int64_t missed = 0;  ///< steps whose residual exceeded the tolerance
   double sweeps = 0, residual_rms = 0, touching = 0, force_bearing = 0;
   double sum_overlap = 0, sum_gap_bearing = 0;
   double largest_residual = 0, largest_overlap = 0, fastest_approach = 0, farthest_approach = 0;
-  std::int64_t divided = 0;          ///< steps that were taken in parts
-  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s
+  std::int64_t divided = 0;          ///< steps that were divided into parts
+  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, on mobile grains
 
   void add(const StepReport& report);
   void add(const StepTotals& other);
   double per_step(double sum) const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
   double mean_overlap() const { return touching > 0 ? sum_overlap / touching : 0; }
-  /// True where two grains, or one and a wall, overlapped by more than deep_overlap.
+  /// True if a grain overlapped another one or a wall too much, see deep_overlap.
   bool passed_into(double small_diameter) const
   {
     return largest_overlap > std::max(deep_overlap * small_diameter, farthest_approach);
@@ -39,17 +39,17 @@ struct StepTotals {
   }
 };
 
-/// Writes frames of a simulation with their observables, keeps the totals of all steps, and stops a
-/// run that is out of bounds. Observables describe the steps since the frame before; energies and
-/// the momentum defect, the frame itself.
+/// Writes frames of a simulation with their observables, sums up the reports of all steps, and
+/// stops a run with invalid results. Energies and the momentum defect describe the frame itself,
+/// other observables the steps since the previous frame.
 class Recorder {
  public:
   static std::vector<Observable> observables();
 
   /// State of the recorder between two steps.
   struct State {
-    StepTotals since_frame;  ///< of the steps that no frame covers yet
-    StepTotals totals;       ///< of the steps before
+    StepTotals since_frame;  ///< totals of the steps after the last frame
+    StepTotals totals;       ///< totals of the steps up to the last frame
   };
 
   Recorder(TrajectoryWriter& writer, double small_diameter) : Recorder(writer, small_diameter, {})
@@ -59,10 +59,10 @@ class Recorder {
   Recorder(TrajectoryWriter& writer, double small_diameter, const State& state);
 
   void add(const StepReport& report) { state_.since_frame.add(report); }
-  /// Writes `frame`; its own step must have been added. RunError where the mean overlap since the
-  /// last frame is above 1 % of d_S and above what the fastest approach makes in a step, a grain
-  /// approaches its neighbour by more than half of d_S even in
-  /// the smallest part of a step, or a number is not finite.
+  /// Writes `frame`; the report of its step must have been added. Throws RunError if a number is
+  /// not finite; if grains may approach each other by more than half the smallest diameter even in
+  /// the smallest part of a step; or if the mean overlap since the last frame is above 1 % of d_S
+  /// and larger than the fastest approach in one step.
   void write(const Frame<2>& frame, const Simulation& simulation);
 
   const StepTotals& totals() const { return state_.totals; }
@@ -76,8 +76,7 @@ class Recorder {
   State state_;
 };
 
-/// Largest |sum of contact forces + m g - force| of a mobile grain over the largest |contact
-/// force|.
+/// Largest |sum of contact forces + m g - force| of a mobile grain over the largest contact force.
 double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity);
 
 }  // namespace grseg

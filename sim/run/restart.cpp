@@ -16,9 +16,9 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr double whole_number_tolerance = 1e-6;  // of a step
+constexpr double whole_number_tolerance = 1e-6;  // accepted deviation, in steps
 
-/// All options at their defaults.
+/// Options of an empty command line: all at their defaults.
 po::variables_map empty_command_line()
 {
   po::variables_map values;
@@ -82,7 +82,7 @@ void require_same_bed(const Scene& before, const Scene& now)
   if (!key.empty())
     throw UsageError(
         fmt::format("{} differs from the checkpoint's: it belongs to the bed, which a restart "
-                    "keeps; leave it out, or begin a new run without --restart",
+                    "cannot change; leave it out, or begin a new run without --restart",
                     key));
 }
 
@@ -102,7 +102,7 @@ Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before
   set_conditions(world, now);
   auto state = checkpoint.state;
   change_step(state, before, now);
-  if (now.friction == 0)  // the solver then leaves tangential impulses as they are
+  if (now.friction == 0)  // without friction the solver does not change tangential impulses
     std::fill(state.pairs.impulse_t.begin(), state.pairs.impulse_t.end(), 0.0);
   if (perturbation.size > 0)
     displace(state.position, world.grains, perturbation.size * now.small_diameter,

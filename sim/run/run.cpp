@@ -25,23 +25,23 @@ namespace {
 
 constexpr const char* program = "grseg-sim";
 
-/// s, of a clock that only runs forward.
+/// Time of a monotonic clock, s.
 double seconds_now()
 {
   using namespace std::chrono;
   return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-/// A simulation that is ready to run, with the file that its frames go to.
+/// A simulation that is ready to run, and the file of its frames.
 struct Run {
   Simulation simulation;
   TrajectoryWriter writer;
   TrajectoryProgress progress;
-  double deposited_height;  // m
+  double deposited_height;  // m, height of the deposited bed
   std::string history;
 };
 
-/// Nothing is compressed until the run is finished (formats/README.md).
+/// Settings without compression, which happens when the run is finished (formats/README.md).
 StorageSettings storage_while_running(const Scene& scene)
 {
   return {.float32 = scene.float32, .live = true};
@@ -73,7 +73,7 @@ struct Checkpoints {
   {
     if (options.checkpoint.empty()) return;
     last = seconds_now();
-    // The trajectory is on the disk before the checkpoint that counts its frames.
+    // The frames that a checkpoint counts must be on the disk before the checkpoint.
     run.writer.flush();
     flush_to_disk(part_of(options.output));
     const auto& world = run.simulation.world();
@@ -91,8 +91,8 @@ struct Checkpoints {
   }
 };
 
-/// Writes frames and checkpoints until the end or a signal. Checkpoints lie just before a frame, so
-/// that a restart may change the step; a checkpoint after a signal does not wait for a frame.
+/// Writes frames and checkpoints until the end or a signal. Checkpoints are written just before a
+/// frame, so that a restart may change the step; after a signal, a checkpoint is written at once.
 void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
           ProgressBar& progress)
 {
@@ -110,7 +110,7 @@ void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkp
   checkpoints.write();
 }
 
-/// The reason to stop before the end.
+/// Exception for a run that a signal stops.
 Interruption stopped_at(double time, const RunOptions& options)
 {
   const auto continuation =
@@ -119,21 +119,22 @@ Interruption stopped_at(double time, const RunOptions& options)
                                   time, part_of(options.output), continuation));
 }
 
-/// CheckError where the solver missed its tolerance or grains passed into each other.
+/// Throws CheckError if the solver missed its tolerance or an overlap was too large.
 void refuse_errors(const StepTotals& totals, double small_diameter)
 {
   if (totals.missed > 0)
     throw CheckError(fmt::format(
-        "the tolerance was missed in {} of {} steps; allow more sweeps or a smaller step",
+        "the solver missed its tolerance in {} of {} steps; choose a larger --max-sweeps or a "
+        "smaller --step",
         totals.missed, totals.steps));
   if (totals.passed_into(small_diameter))
     throw CheckError(fmt::format(
-        "two grains, or one and a wall, overlapped by {:.2g} d_S, more than {}; allow more sweeps or a "
-        "smaller step",
+        "a grain overlapped another one or a wall by {:.2g} d_S, more than {}; choose a larger "
+        "--min-sweeps or a smaller --step",
         totals.largest_overlap / small_diameter, deep_overlap));
 }
 
-/// Lets `run` flow to its end and publishes what it wrote.
+/// Runs `run` to its end, prints the summary and renames the trajectory to its final name.
 void finish(const Scene& scene, const RunOptions& options, Run& run)
 {
   auto& simulation = run.simulation;
@@ -163,7 +164,7 @@ void finish(const Scene& scene, const RunOptions& options, Run& run)
   if (options.strict) refuse_errors(recorder.totals(), scene.small_diameter);
 }
 
-/// Signals end the run with a checkpoint, and a pipe that nobody reads does not end it at all.
+/// From now on signals end the run with a checkpoint, except for a closed pipe, which is ignored.
 void listen()
 {
   listen_to_signals();
@@ -180,7 +181,7 @@ void record_deposition(const Scene& scene, TrajectoryWriter& writer)
   deposit(scene, {.each_step = {}, .slowed = {}, .record = record});
 }
 
-/// Says what the run from `begin`, s, on will take, and refuses it where there is no room.
+/// Prints the expected cost of the run from `begin`, s, on. Throws UsageError if it is too large.
 void announce(const Scene& scene, double begin, const RunOptions& options)
 {
   const auto cost = expected_cost(scene, begin);
@@ -188,8 +189,8 @@ void announce(const Scene& scene, double begin, const RunOptions& options)
   if (!options.force) require_room(cost, options.output);
 }
 
-/// True where `output` has as many frames as `checkpoint` counts or, after an interrupted
-/// prolongation, its frames are the first ones in output.part.
+/// True if `output` contains the frames that `checkpoint` counts, or if its frames are the first
+/// ones in output.part, as after an interrupted prolongation.
 bool begins_the_run(const std::string& output, const Checkpoint& checkpoint)
 {
   if (!holds_something(output)) return false;
@@ -201,7 +202,7 @@ bool begins_the_run(const std::string& output, const Checkpoint& checkpoint)
   return run.size() < longer.size() && longer.digests()[run.size() - 1] == run.digest();
 }
 
-/// The bed at rest; `slowed_from` becomes the time, s, from which its grains had to be slowed down.
+/// Deposits the bed. Sets `slowed_from` to the time, s, from which its grains were slowed down.
 Simulation deposit_visibly(const Scene& scene, const RunOptions& options, double& slowed_from)
 {
   ProgressBar progress(
@@ -210,7 +211,7 @@ Simulation deposit_visibly(const Scene& scene, const RunOptions& options, double
       options.quiet);
   progress.say("depositing the bed");
   const auto step = [&](double time) {
-    if (interrupted()) throw interruption("interrupted while the bed was deposited");
+    if (interrupted()) throw interruption("interrupted during the deposition of the bed");
     progress.show(time);
   };
   const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
@@ -242,7 +243,8 @@ void simulate(const Scene& scene, const RunOptions& options)
   finish(scene, options, run);
   if (slowed_from > 0 && !options.quiet)
     tell(fmt::format(
-        "  remark     the falling bed still moved after {:.3g} s; its grains were slowed down\n",
+        "remark     the bed had not come to rest after {:.3g} s of deposition; its grains were "
+        "slowed down\n",
         slowed_from));
 }
 
@@ -254,7 +256,7 @@ void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options
   require_same_bed(before, scene);
   const bool perturbed = options.perturbation.size > 0;
   const bool unchanged = !perturbed && to_text(scene) == to_text(before);
-  // A finished run that is prolonged is replaced by what holds all of its frames.
+  // A finished run may be replaced by its prolongation, which contains all of its frames.
   const bool is_begun = options.continues && begins_the_run(options.output, checkpoint);
   const bool prolongs = is_begun && !perturbed && !unchanged && same_steps(before, scene);
   options.overwrite = options.overwrite || is_begun;
@@ -263,9 +265,9 @@ void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options
   const bool in_place = prolongs || (unchanged && holds_something(part));
   auto simulation = restored_simulation(checkpoint, before, scene, options.perturbation);
   if (!in_place && simulation.steps_done() >= scene.steps_in_all())
-    throw UsageError(fmt::format(
-        "{} is at t = {:g} s and the run ends at {:g} s; a larger --duration prolongs it",
-        options.restart, simulation.time(), scene.duration));
+    throw UsageError(
+        fmt::format("{} is at t = {:g} s, and the run ends at {:g} s; choose a larger --duration",
+                    options.restart, simulation.time(), scene.duration));
   if (!in_place && holds_something(part)) check_output(part, options.overwrite, {});
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);

@@ -9,36 +9,37 @@
 namespace grseg {
 
 struct RunOptions {
-  std::string scene_file;  ///< that the scene was read from, "" for none
-  std::string output;
+  std::string scene_file;  ///< name of the scene file, "" for none
+  std::string output;      ///< name of the trajectory
   std::string command_line;
   bool overwrite = false;
   bool strict = false;
   bool quiet = false;
-  bool force = false;            ///< begin even if memory or disk have too little room
-  bool estimate = false;         ///< print the cost of the run instead
-  bool continues = false;        ///< restart from `checkpoint` if it is there
-  std::string instruction_set;   ///< "" for the best
-  std::string checkpoint;        ///< file to write, "" for none
-  double checkpoint_every = 60;  ///< s of wall time
-  std::string restart;           ///< name of the checkpoint that `resume` continues
-  Perturbation perturbation;     ///< for `resume`
+  bool force = false;            ///< start even if free memory or disk space is too small
+  bool estimate = false;         ///< print the expected cost instead of running
+  bool continues = false;        ///< restart from `checkpoint` if this file exists
+  std::string instruction_set;   ///< name of the instruction set, "" for the best
+  std::string checkpoint;        ///< name of the checkpoint to write, "" for none
+  double checkpoint_every = 60;  ///< s of wall-clock time between checkpoints
+  std::string restart;           ///< name of the checkpoint that resume() continues
+  Perturbation perturbation;     ///< displacements for resume()
 };
 
-/// Deposits, tilts and runs `scene` into `options.output`. While it runs the file is called
-/// output.part; a run that is interrupted (interruption.hpp) or stops out of bounds leaves its
-/// frames there, readable. A summary goes to standard error and, as numbers, into /parameters.
+/// Deposits a bed, starts the flow of `scene` and writes it to `options.output`. During the run the
+/// file is named output.part; if the run is interrupted (interruption.hpp) or stops with an error,
+/// its frames can be read there. A summary is printed to standard error, and its numbers are
+/// written to /parameters.
 ///
-/// Checkpoints are written at the beginning, then at the first frame after every
-/// `checkpoint_every`, on a signal and at the end.
+/// Checkpoints are written at the beginning, at the first frame after every `checkpoint_every`
+/// seconds, on a signal and at the end.
 void simulate(const Scene& scene, const RunOptions& options);
 
-/// Continues `checkpoint` under the scene `given`, which must have the same bed. With an unchanged
-/// scene, an output.part of the same run is cut back to the frames that the checkpoint counts, and
-/// ends bitwise as an uninterrupted run; UsageError where output.part belongs to another run. Where
-/// `options.continues` and only the run's length differs, a finished output is prolonged: its
-/// replacement holds its frames and the new ones. In all other cases a new trajectory begins with
-/// the frames after the checkpoint.
+/// Continues `checkpoint` with the scene `given`, which must have the same bed. If the scene is
+/// unchanged and output.part belongs to the same run, frames after the checkpoint are removed from
+/// output.part, and the result is bitwise equal to an uninterrupted run; if it belongs to another
+/// run, throws UsageError. If `options.continues` and only the duration differs, a finished output
+/// is replaced by a file with its frames and the new ones. In all other cases a new trajectory
+/// begins with the frames after the checkpoint.
 void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options);
 
 }  // namespace grseg

@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// True where both paths name one file, which need not exist.
+/// True if both paths name the same file, which need not exist.
 bool is_one_name(const std::string& a, const std::string& b)
 {
   std::error_code error;
@@ -51,12 +51,14 @@ void check_outputs(const RunOptions& options)
     for (const auto& own : {checkpoint, part_of(checkpoint), previous_of(checkpoint)})
       if (is_one_name(own, of_trajectory))
         throw UsageError(
-            "checkpoint and trajectory cannot be one file; name another for --checkpoint");
+            "checkpoint and trajectory cannot be the same file; choose another name for "
+            "--checkpoint");
   for (const auto& own : {checkpoint, previous_of(checkpoint)}) {
     if (same_file(checkpoint, options.restart)) break;
     if (!options.overwrite && holds_something(own) && holds_something(part_of(options.output)))
       throw UsageError(fmt::format(
-          "{} and {} belong to an interrupted run: --continue goes on with it, --overwrite begins again",
+          "{} and {} belong to an interrupted run: --continue continues it, --overwrite begins "
+          "again",
           own, part_of(options.output)));
     if (!same_file(own, options.restart)) check_output(own, options.overwrite, inputs);
   }
@@ -105,7 +107,7 @@ TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint
   const auto require = [&](bool belongs) {
     if (!belongs)
       throw UsageError(fmt::format(
-          "{} does not hold the frames of {}; move it away to begin a new trajectory, or choose "
+          "{} does not contain the frames of {}; move it away to begin a new trajectory, or choose "
           "another name for --output",
           to.from, name));
   };

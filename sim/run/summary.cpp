@@ -19,7 +19,7 @@
 namespace grseg {
 namespace {
 
-// Marks of rigid discs: k/P (NumericalStiffness), and the mean overlap in d_S
+// Limits for discs that count as rigid: least k/P (NumericalStiffness), largest mean overlap in d_S
 // (docs/studies/first-flow.md).
 constexpr double rigid = 1e4;
 constexpr double small_overlap = 1e-3;
@@ -51,10 +51,10 @@ std::string flow_in_words(const RunSummary& s, const Scene& scene)
 std::string solver_in_words(const StepTotals& t, const Scene& scene)
 {
   const auto met = t.missed == 0 ? "all within"
-                                 : fmt::format("{:.3g} % of them above",
+                                 : fmt::format("{:.3g} % of the steps above",
                                                100 * t.per_step(static_cast<double>(t.missed)));
   return fmt::format(
-      "{}: steps of {:.4g} s, {:.1f} sweeps over {:.0f} contacts in each, {} the solver's "
+      "{}: steps of {:.4g} s, {:.1f} sweeps over {:.0f} contacts per step, {} the solver's "
       "tolerance of {:g}",
       scene.accuracy, scene.step, t.per_step(t.sweeps), t.per_step(t.force_bearing), met,
       scene.solver.tolerance);
@@ -63,11 +63,11 @@ std::string solver_in_words(const StepTotals& t, const Scene& scene)
 std::string stiffness_in_words(const NumericalStiffness& s)
 {
   const auto remedy = fmt::format(
-      "; above {:.0e} discs count as rigid: --step {:.2g} or "
+      "; discs count as rigid above {:.0e}: choose --step {:.2g} or "
       "--min-sweeps {:.0f}",
       rigid, s.advised_step, std::ceil(s.advised_sweeps));
   return fmt::format(
-      "the bed yields as elastic discs with k/P = {:.1e} would, P the pressure at the base{}",
+      "k/P = {:.1e}, k the stiffness of elastic discs that yield as much, P the base pressure{}",
       s.rigidity, s.rigidity < rigid ? remedy : "");
 }
 
@@ -76,33 +76,32 @@ std::string line(const char* title, const std::string& text)
   return fmt::format("  {:<10} {}\n", title, text);
 }
 
-/// Reasons to doubt the run, a line each, with its remedy.
+/// Reasons to doubt the run and remarks, one per line, with remedies.
 std::string doubts(const StepTotals& t, const Scene& scene)
 {
   std::string lines;
   if (t.missed > 0)
     lines += line(
         "doubt",
-        fmt::format(
-            "{} missed the tolerance, and forces of these steps are less exact: raise --max-sweeps, now {}, "
-            "or choose a smaller --step",
-            counted(static_cast<std::size_t>(t.missed), "step"), scene.solver.max_sweeps));
+        fmt::format("{} missed the tolerance of the solver, and their forces are less exact: raise "
+                    "--max-sweeps, now {}, or choose a smaller --step",
+                    counted(static_cast<std::size_t>(t.missed), "step"), scene.solver.max_sweeps));
   if (t.divided > 0)
     lines += line("remark",
-                  fmt::format("{} {} taken in parts, because grains might have "
-                              "approached each other by more than half a diameter in a whole one",
+                  fmt::format("{} {} divided into parts, because grains might have "
+                              "approached each other by more than half a diameter in a whole step",
                               counted(static_cast<std::size_t>(t.divided), "step"),
                               t.divided == 1 ? "was" : "were"));
   if (t.mean_overlap() > small_overlap * scene.small_diameter)
-    lines +=
-        line("doubt", fmt::format("the mean overlap is above {:g} d_S: contacts per grain and gaps "
-                                  "suffer, velocities by some per cent, B and the order of rules "
-                                  "hardly; choose a smaller --step or a larger --min-sweeps",
-                                  small_overlap));
+    lines += line(
+        "doubt", fmt::format("the mean overlap is above {:g} d_S: contacts per grain and gaps are "
+                             "wrong, velocities are off by some per cent, B and the order of rules "
+                             "hardly change; choose a smaller --step or a larger --min-sweeps",
+                             small_overlap));
   if (t.passed_into(scene.small_diameter))
     lines += line(
         "doubt",
-        fmt::format("two grains, or one and a wall, overlapped by more than {:g} d_S, "
+        fmt::format("a grain overlapped another one or a wall by more than {:g} d_S, "
                     "and forces there are wrong: choose a smaller --step or a larger --min-sweeps",
                     deep_overlap));
   return lines;
@@ -116,7 +115,7 @@ std::string effects_left_out(const Scene& scene)
   const auto add = [&](bool left_out, const char* what) {
     if (left_out) all.emplace_back(what);
   };
-  // A contact that rebounds a step later does so from a velocity that was remembered.
+  // A contact that rebounds one step later needs its stored approach velocity.
   const bool remembers = law_parameters(scene).horizon > 0;
   add(scene.friction == 0, "friction (its coefficient is 0)");
   add(!scene.rotation, "rotation (off)");
@@ -209,12 +208,12 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
   text += line("flow", flow_in_words(s, scene));
   text += line("accuracy", solver_in_words(s.totals, scene));
   text += line("overlap",
-               fmt::format("{:.1e} d_S in the mean over pairs that overlap, {:.1e} d_S at most",
+               fmt::format("{:.1e} d_S on average over pairs that overlap, {:.1e} d_S at most",
                            s.totals.mean_overlap() / scene.small_diameter,
                            s.totals.largest_overlap / scene.small_diameter));
   text += line("stiffness", stiffness_in_words(s.stiffness));
   const auto left_out = effects_left_out(scene);
-  if (!left_out.empty()) text += line("not needed", left_out);
+  if (!left_out.empty()) text += line("left out", left_out);
   return text + doubts(s.totals, scene);
 }
 
@@ -229,7 +228,7 @@ std::string next_steps(const std::string& output)
 NumericalStiffness numerical_stiffness(const StiffnessInput& in)
 {
   constexpr double sinking = 1e-3;
-  // Both conditions ask for a least N/h^2.
+  // Both conditions are lower limits of N/h^2.
   const double for_rigidity = rigid * in.base_pressure / in.mass;
   const double for_sinking = in.layers * in.layers * in.gravity / (2 * sinking * in.diameter);
   const double least = std::max(for_rigidity, for_sinking);

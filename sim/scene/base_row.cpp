@@ -14,12 +14,12 @@
 namespace grseg {
 namespace {
 
-// Widest gap, in diameters of the smallest grain. Weight wedges a grain into a gap: on a gap of 0.9
-// a grain pushes with twice its weight on each of two beads twice its size, on one of 0.99 with six
-// times.
+// Widest accepted gap, in diameters of the smallest grain. A grain's weight wedges it into a gap:
+// on two beads of twice its size, it pushes on each with twice its weight if the gap is 0.9, and
+// with six times its weight if the gap is 0.99.
 constexpr double widest_gap_that_holds = 0.9;
-constexpr double fewest_beads = 4;       // so that no bead meets its own image
-constexpr double error_of_count = 1e-9;  // of a number of beads
+constexpr double fewest_beads = 4;       // so that no bead touches its own periodic image
+constexpr double error_of_count = 1e-9;  // round-off of a number of beads
 // Bit in which the seed of the base differs from the seed of the grains.
 constexpr std::uint64_t own_stream = 1U << 31;
 
@@ -45,7 +45,7 @@ std::vector<double> evenly_spaced(std::size_t count, RandomNumbers& random)
   return values;
 }
 
-/// The first key that asks for another base than touching beads of the large grains' diameter.
+/// First key whose value differs from the regular row (base_row.hpp); null if there is none.
 const char* key_of_other_base(const Scene& scene)
 {
   if (scene.base_diameter != scene.large_diameter) return "base-diameter";
@@ -62,21 +62,20 @@ void check_room(const Scene& scene)
   for (const auto& [key, what, value] :
        {std::tuple{"base-diameter", "wide", widest}, {"base-spacing", "apart", scene.base_spacing}})
     require(value <= scene.length / fewest_beads, key,
-            fmt::format("{}: base grains would be {:.4g} m {}, more than a quarter of the length, "
-                        "{:.4g} m; choose a smaller {} or a longer cell",
+            fmt::format("{}: base grains would be {:.4g} m {}, more than a quarter of the length "
+                        "of {:.4g} m; choose a smaller {} or a longer cell",
                         key, value, what, scene.length, key));
 }
 
 void check_that_it_holds(const Scene& scene, const char* key)
 {
   const double gap = widest_gap(scene), most = widest_gap_that_holds * smallest_grain(scene);
-  require(
-      gap <= most, key,
-      fmt::format(
-          "{}: grains would fall through the base, whose keys allow gaps of {:.4g} m; "
-          "the smallest grains fall through those wider than {:.4g} m: choose a smaller base-spacing "
-          "or smaller spreads",
-          key, gap, most));
+  require(gap <= most, key,
+          fmt::format(
+              "{}: grains would fall through the base: its gaps may be as wide as {:.4g} m, and "
+              "the smallest grains need gaps of at most {:.4g} m; choose a smaller base-spacing "
+              "or smaller spreads",
+              key, gap, most));
 }
 
 }  // namespace
@@ -105,8 +104,8 @@ void resolve_base_row(Scene& scene, const KeyGiven& given)
   const char* key = key_of_other_base(scene);
   if (key == nullptr) return;
   require(free_to_choose, key,
-          fmt::format("{} shapes the grains under a bed; set geometry = bed and base = grains, or "
-                      "leave it out",
+          fmt::format("{} applies only to the grains under a bed; set geometry = bed and base = "
+                      "grains, or leave it out",
                       key));
   check_that_it_holds(scene, key);
 }
@@ -118,7 +117,7 @@ void add_base_row(Boundaries& to, const Scene& scene)
   RandomNumbers random(scene.seed ^ own_stream);
   const auto spacing = evenly_spaced(count, random), diameter = evenly_spaced(count, random),
              height = evenly_spaced(count, random);
-  double displaced = 0;  // of the row's x from the evenly spaced one, in mean spacings
+  double displaced = 0;  // deviation of x from even spacing, in mean spacings
   for (std::size_t k = 0; k < count; ++k) {
     const double radius = scene.base_diameter / 2 * (1 + scene.base_diameter_spread * diameter[k]);
     const double lowered = scene.base_height_spread * (0.5 - height[k]);

@@ -3,33 +3,33 @@
 
 #include "sim/scene/geometry.hpp"
 
-/// The row of beads (boundary grains) under a bed: the keys base-... Other geometries have the
-/// regular row that these keys give by default: touching beads of the large grains' diameter.
+/// The row of beads (boundary grains) under a bed, set by the keys base-... With the default values
+/// of these keys, and in all other geometries, the row is regular: touching beads of the large
+/// grains' diameter.
 ///
-/// N beads fill the cell, where N is the largest number whose mean spacing, length/N, is not below
-/// base-spacing. Spacings, diameters and heights that spread are evenly spaced values of their
-/// range, which the beads take in random order: ranges and means are exact, and no bead knows its
-/// neighbours. Tops lie at y = 0, or below it by what a bead is lowered: the highest one at 0, the
-/// lowest one at -base-height-spread; with Scene::Origin::centre, half a base-diameter above that.
-/// The random order has a stream of its own, so that grains fall as over a regular base.
+/// N beads fill the cell: the largest N whose mean spacing, length/N, is at least base-spacing.
+/// Spacings, diameters and heights with a spread are evenly spaced values of their ranges, assigned
+/// to the beads in random order: ranges and means are exact, and values of neighbouring beads are
+/// independent. The top of the highest bead is at y = 0, of the lowest at -base-height-spread; with
+/// Scene::Origin::centre, both are half a base-diameter higher. The order has random numbers of its
+/// own, so that the falling grains are the same as over a regular base.
 ///
-/// Beads may overlap (unequal neighbours, or base-spacing below base-diameter): they never
-/// touch each other in the sense of the contact law, since both stand still.
+/// Beads may overlap (unequal neighbours, or base-spacing below base-diameter): there are no
+/// contacts between beads, because neither can move.
 namespace grseg {
 
-/// Sets Scene::base_spacing, which `given` may leave open, to the mean spacing that fills the
-/// cell. SceneError where the keys ask for a base that this geometry does not have, that the cell
-/// does not hold, or that lets the smallest grain through.
+/// Sets Scene::base_spacing to the mean spacing that fills the cell (base-diameter is the default
+/// of the key). Throws SceneError if the geometry has no such base, if its beads are too large for
+/// the cell, or if the smallest grain would fall through.
 void resolve_base_row(Scene& scene, const KeyGiven& given);
 
-/// How many beads fill the cell with a mean spacing that is not below `spacing`, m.
+/// Largest number of beads that fill the cell with a mean spacing of at least `spacing`, m.
 long beads_at_spacing(const Scene& scene, double spacing);
 
-/// Largest gap between neighbours, beads or a wall, that the keys allow, m; below 0 where all
-/// overlap.
+/// Largest possible gap between neighbouring beads, or bead and side wall, m; below 0: overlap.
 double widest_gap(const Scene& scene);
 
-/// Adds the row, and sets `to.top` to the top of its highest bead.
+/// Adds the row of beads, and sets `to.top` to the top of its highest bead.
 void add_base_row(Boundaries& to, const Scene& scene);
 
 }  // namespace grseg

@@ -17,25 +17,25 @@ namespace grseg {
 namespace {
 
 constexpr double depth_tolerance = 0.02;
-constexpr double usual_solid_fraction = 0.81;  // of a deposit, physics of the first guess only
+constexpr double usual_solid_fraction = 0.81;  // solid fraction of a deposit, for the first attempt
 constexpr int most_attempts = 20;
 constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
 
-/// A grain in the air.
+/// Grain at its place above the base, before it falls.
 struct Falling {
   Species species;
   double radius;  // m
-  Vec2 at;        // m
+  Vec2 at;        // m, position of its centre
 };
 
-/// Grains in the air, and the height above them, m.
+/// All grains before they fall, and the height above which there are none, m.
 struct Shower {
   std::vector<Falling> grains;
   double top;
 };
 
-/// A square of the lattice that falls, and the grains in it: one of the lattice's largest species,
-/// or up to `per_side` x `per_side` smaller ones.
+/// Square cell of the lattice on which grains are placed before they fall. It contains one grain of
+/// the lattice's largest species, or up to `per_side` x `per_side` smaller ones.
 struct Cell {
   Species species;
   long per_side, grains;
@@ -46,12 +46,12 @@ double nominal_diameter(const Scene& scene, Species species)
   return species == Species::large ? scene.large_diameter : scene.small_diameter;
 }
 
-/// A row of the lattice, m.
+/// Row of cells of the lattice: left edge, bottom, width of a cell, and height, m.
 struct Row {
   double left, bottom, spacing, height;
 };
 
-/// Adds the jittered grains of the cell at `place` of `row`.
+/// Adds the grains of the cell at `place` of `row`, with random displacements.
 void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, const Cell& cell,
                RandomNumbers& random)
 {
@@ -61,7 +61,7 @@ void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, c
   const double slack = row.spacing / per_side - largest;
   for (long k = 0; k < cell.grains; ++k) {
     const double along = (static_cast<double>(k % cell.per_side) + 0.5) / per_side;
-    const long above = k / cell.per_side;  // whole rows
+    const long above = k / cell.per_side;  // rows of this cell below the grain
     const double up = (static_cast<double>(above) + 0.5) / per_side;
     const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
     const double x = row.left + (static_cast<double>(place) + along) * row.spacing +
@@ -72,7 +72,7 @@ void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, c
   }
 }
 
-/// Adds rows of `cells`, which are as wide as grains of the species `lattice` need.
+/// Adds rows of `cells`; a cell is wide enough for a grain of the species `lattice`.
 void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, Species lattice,
               RandomNumbers& random)
 {
@@ -85,8 +85,8 @@ void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells
     const long per_row = static_cast<long>(width / row_height);
     if (per_row < 1 && above.right - above.left <= below.right - below.left)
       throw UsageError(
-          fmt::format("the falling grains do not fit: the {} has no room for one at a height of "
-                      "{:.4g} m; choose a wider one or fewer grains",
+          fmt::format("the falling grains do not fit: the {} is too narrow for a grain at "
+                      "a height of {:.4g} m; choose a wider one or fewer grains",
                       scene.geometry->name, y));
     const Row row{left, y, width / static_cast<double>(per_row), row_height};
     for (long place = 0; place < per_row && cell != cells.end(); ++place, ++cell)
@@ -99,7 +99,7 @@ std::vector<Cell> cells_of_one(Species species, long count)
   return std::vector<Cell>(static_cast<std::size_t>(count), Cell{species, 1, 1});
 }
 
-/// The grains of both species in cells of the larger one, in random order.
+/// Cells of grains of both species, sized for large grains, in random order.
 std::vector<Cell> mixed_cells(const Scene& scene, long large, long small, RandomNumbers& random)
 {
   constexpr double round_off = 1e-9;
@@ -112,8 +112,7 @@ std::vector<Cell> mixed_cells(const Scene& scene, long large, long small, Random
   return cells;
 }
 
-/// Grains in the air above `bottom`, m, ordered as Scene::initial says; in the list large ones come
-/// first.
+/// Grains above `bottom`, m, in the arrangement Scene::initial; large grains first in the list.
 Shower shower_of(const Scene& scene, long large, long small, double bottom, RandomNumbers& random)
 {
   Shower shower{{}, bottom};
@@ -155,20 +154,20 @@ Numbers numbers_of(const Scene& scene, double area)
   return {large, std::lround(left / (quarter_pi * scene.small_diameter * scene.small_diameter))};
 }
 
-/// m^2, of the first guess.
+/// Area of the mobile grains in the first attempt, m^2.
 double usual_area(const Scene& scene)
 {
   return usual_solid_fraction * bed_area(scene);
 }
 
-/// The grains of a bed whose mobile grains cover `area` (m^2), in the air above their base.
+/// Base and falling grains of a bed whose mobile grains cover `area` (m^2).
 Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
 {
   Packing packing;
   auto& world = packing.world;
   const auto [large, small] = numbers_of(scene, area);
   if (large + small == 0)
-    throw UsageError("the bed holds no grain; choose a larger depth or length, or smaller grains");
+    throw UsageError("the bed has no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
   const auto shower = shower_of(scene, large, small, boundaries.top, random);
   const double of_large_grains = scene.density * scene.density_ratio;
@@ -184,7 +183,7 @@ Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
   return packing;
 }
 
-/// A falling bed with the random velocities that keep it from landing as a lattice.
+/// Falling bed. Its grains have random velocities, so that it does not land as a lattice.
 Simulation falling(const Packing& packing, const Scene& scene, RandomNumbers& random)
 {
   Simulation simulation(packing.world, packing.position);
@@ -196,12 +195,12 @@ Simulation falling(const Packing& packing, const Scene& scene, RandomNumbers& ra
   return simulation;
 }
 
-/// When a deposition looks whether the bed rests, in steps and s.
+/// Times at which a deposition checks whether the bed rests.
 struct Looks {
-  std::int64_t every;  // steps
-  double first;        // s; the free fall is never mistaken for rest
-  double impatient;    // s, from then on grains are slowed down
-  double last;         // s
+  std::int64_t every;  // steps from check to check
+  double first;        // s, time of the first check, so that the free fall is not taken for rest
+  double impatient;    // s, time from which on grains are slowed down
+  double last;         // s, time of the last check
 };
 
 Looks looks_of(const Scene& scene)
@@ -220,8 +219,8 @@ void set_restitution(double restitution, Simulation& simulation)
   simulation = Simulation(world, simulation.state());
 }
 
-/// Where a look after `steps` steps is an impatient one, halves the velocities of mobile grains,
-/// which do not rebound from then on; says whether it is.
+/// If a check is due after `steps` steps and later than Looks::impatient, sets restitution to 0,
+/// halves the velocities of mobile grains and returns true.
 bool slow_down(Simulation& simulation, std::int64_t steps, const Scene& scene, const Looks& looks)
 {
   if (steps % looks.every != 0 || static_cast<double>(steps) * scene.step < looks.impatient)
@@ -255,13 +254,13 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
       hooks.slowed(simulation.time());
   }
   throw RunError(fmt::format(
-      "the bed has not come to rest {:.3g} s after its release, although its grains were slowed down: "
-      "its kinetic energy is {:.2g} times that of a bed at rest; use more min-sweeps, now {}, or a "
-      "smaller step",
+      "the bed has not come to rest {:.3g} s after its release, although its grains were slowed "
+      "down: its kinetic energy is {:.2g} times the limit for rest; choose a larger min-sweeps, "
+      "now {}, or a smaller step",
       looks.last, energy / at_rest, scene.solver.min_sweeps));
 }
 
-/// Runs `simulation` through `steps` steps that end at time 0, for the record.
+/// Repeats a deposition of `steps` steps, which end at time 0, and calls hooks.record.
 void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
             const DepositionHooks& hooks)
 {
@@ -314,15 +313,15 @@ double expected_grains(const Scene& scene)
 
 double expected_time_to_rest(const Scene& scene)
 {
-  constexpr double falls = 1.2;  // measured on beds of 20 to 80 d_S
+  constexpr double falls = 1.2;  // times of free fall; measured on beds of 20 to 80 d_S
   return falls * std::sqrt(2 * scene.depth / scene.gravity);
 }
 
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
 {
   double area = usual_area(scene);
-  // One stream for all attempts: the height of a shallow bed scatters by more than 2 %, so each
-  // attempt needs other grains.
+  // Not seeded again in each attempt: the height of a shallow bed varies by more than 2 %, so each
+  // attempt needs other random numbers.
   RandomNumbers random(scene.seed);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     const auto packing = loose_packing(scene, area, random);

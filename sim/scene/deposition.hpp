@@ -8,39 +8,38 @@
 
 namespace grseg {
 
-/// Functions that deposit() calls, where they are set.
+/// Functions that deposit() calls if they are set.
 struct DepositionHooks {
-  /// Called after every step with the time, s, since this attempt began; what it throws ends the
-  /// deposition.
+  /// Called after every step with the time, s, of this attempt. An exception ends the deposition.
   std::function<void(double)> each_step;
-  /// Called with the time, s, where the grains of a bed that does not rest are slowed down.
+  /// Called with the time, s, whenever the grains of a bed that does not rest are slowed down.
   std::function<void(double)> slowed;
-  /// Where set, the accepted deposition is run once more with the clock below 0, and this is called
-  /// after every step of it, with the frame where one is due and null otherwise.
+  /// If set, the accepted deposition is repeated with the clock at negative times, and this
+  /// function is called after every step; the frame is null in steps without one.
   std::function<void(const StepReport&, const Simulation&, const Frame<2>*)> record;
 };
 
 /// A bed at rest on its base at slope 0, made by letting a loose random packing fall: large grains
-/// under small ones (Staron & Phillips 2015, section II), or as Scene::initial says. Its height,
-/// twice the area-weighted mean height of its mobile grains above y = 0, lies within 2 % of
-/// scene.depth: grains are added or left out, at constant phi_L, and the deposition is repeated
-/// until it does. RunError where that cannot be reached.
+/// under small ones (Staron & Phillips 2015, section II), or in the arrangement Scene::initial. Its
+/// height (bed_height()) differs from scene.depth by at most 2 %: the deposition is repeated with
+/// more or fewer grains, at constant phi_L, until this is reached. Throws RunError if it cannot be
+/// reached.
 ///
-/// A bed of depth H that still moves after 10 sqrt(2 H/g), as it may without friction, with
-/// restitution 1, or under a grain that rolls on a flat wall, no longer rebounds and loses half of
-/// its velocities every 2 sqrt(d_S/g) until it rests.
+/// A bed of depth H may still move after 10 sqrt(2 H/g): without friction, with restitution 1, or
+/// if a grain rolls on a flat wall. From then on restitution is 0 and all velocities are halved
+/// every 2 sqrt(d_S/g), until the bed rests.
 ///
-/// Rows of Grains: large grains, small grains, then boundary grains. The clock stands at 0, and
-/// gravity points straight down; release() (geometry.hpp) starts the flow.
+/// Order of Grains: large grains, small grains, then boundary grains. The result has time 0 and
+/// gravity straight down; release() (geometry.hpp) starts the flow.
 Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
 
-/// Number of grains that deposit() tries first, the boundary's included.
+/// Number of grains in the first attempt of deposit(), including boundary grains.
 double expected_grains(const Scene& scene);
 
-/// s that a bed falls until it rests, about; an attempt of deposit() takes as long.
+/// Approximate time until a falling bed rests, s: the duration of an attempt of deposit().
 double expected_time_to_rest(const Scene& scene);
 
-/// Sets everything in `world` that follows from `scene` but its grains, walls and box; gravity
+/// Sets all members of `world` that follow from `scene`, except grains, walls and box. Gravity
 /// points straight down.
 void set_conditions(World& world, const Scene& scene);
 

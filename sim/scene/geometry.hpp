@@ -14,83 +14,81 @@ namespace grseg {
 /// Boundaries of a scene during deposition.
 struct Boundaries {
   std::vector<Vec2> position;  // m, of boundary grains
-  std::vector<double> radius;  // m
+  std::vector<double> radius;  // m, of boundary grains
   std::vector<Wall> walls;
-  double top = 0;  // m, of the base under the falling grains
+  double top = 0;  // m, y of the top of the base
 };
 
-/// Where grains may be at one height before they fall: from `left` to `right`, m.
+/// Range of x in which falling grains may be placed at one height: from `left` to `right`, m.
 struct Room {
   double left = 0, right = 0;
 };
 
-/// True where the user gave this key.
+/// Function that is true for keys whose value the user gave.
 using KeyGiven = std::function<bool(const char* key)>;
 
-/// Boundaries of a scene: where they are, how they move, and how they change at t = 0. Each value
-/// of the key `geometry` has one such row, in sim/scene/geometry. y = 0 is where Scene::origin puts
-/// it; in a drum, at its lowest point. A null function has no effect.
+/// Boundaries of a scene: their positions, their motion, and their changes at t = 0. Each value of
+/// the key `geometry` has one Geometry, in sim/scene/geometry. Scene::origin defines y = 0, except
+/// in a drum, where it is the lowest point. Functions that are null have no effect.
 struct Geometry {
-  const char* name;  ///< value of the key
-  const char* help;  ///< what moves or opens, in a few words
+  const char* name;  ///< value of the key `geometry`
+  const char* help;  ///< words for --help: what moves or opens
 
-  /// Checks what this geometry requires of other keys (SceneError), and sets the members of `scene`
-  /// that follow from its own keys.
+  /// Checks other keys (throws SceneError); sets members that follow from the geometry's keys.
   void (*resolve)(Scene& scene, const KeyGiven& given) = nullptr;
-  /// True where grains of the base can be shaken, and the keys base-... may ask for another row of
-  /// beads than the regular one.
+  /// True if the base can be shaken, and the keys base-... apply to it (base_row.hpp).
   bool shapes_base = false;
 
   Boundaries (*boundaries)(const Scene& scene);
-  /// At height y, m, of the cell; null: over its whole length.
+  /// Room for falling grains at height y, m; null: the whole length of the cell.
   Room (*room_at)(const Scene& scene, double y) = nullptr;
-  /// m^2, under the surface of the settled bed, voids included; null: depth times width at y = 0.
+  /// Area of the settled bed including voids, m^2; null: depth times width at y = 0.
   double (*bed_area)(const Scene& scene) = nullptr;
-  /// True where the deposition is repeated until the bed is as high as Scene::depth.
+  /// True if the deposition is repeated until the height of the bed is Scene::depth.
   bool checks_height = true;
 
-  /// The deposited grains at t = 0, after what held them is gone or what presses them has come.
+  /// Removes or adds boundaries at t = 0: opens a gate or an outlet, or adds a plate.
   Simulation (*release)(const Simulation& deposited, const Scene& scene) = nullptr;
-  /// True where `release` neither adds nor removes grains, so that frames before and after t = 0
-  /// can be in one file.
+  /// True if `release` neither adds nor removes grains, so that frames before and after t = 0 can
+  /// be in one file.
   bool keeps_grains = true;
-  /// True where one of `bodies` moves freely.
+  /// True if one of `bodies` moves freely along y (BoundaryBody::free).
   bool has_free_body = false;
   /// Boundary grains that move from t = 0 on; they are the last rows of `grains`.
   std::vector<BoundaryBody> (*bodies)(const Scene& scene, const Grains& grains) = nullptr;
-  /// From t = 0 on; false: none.
+  /// True if gravity acts after t = 0.
   bool has_gravity = true;
-  /// N/m, of the flow on its base; null: what its weight makes.
+  /// Pressure of the flow on its base, N/m; null: measured from the contacts with the base.
   double (*base_pressure)(const Scene& scene) = nullptr;
 
-  /// Adds what /parameters holds of this geometry beside the keys.
+  /// Adds values to /parameters of the trajectory that are not keys.
   void (*describe)(const Scene& scene, Parameters& parameters) = nullptr;
 };
 
-/// Geometry::room_at and Geometry::bed_area of Scene::geometry.
+/// Values of Geometry::room_at and Geometry::bed_area of a scene, or their defaults.
 Room room_at(const Scene& scene, double y);
 double bed_area(const Scene& scene);
 
-/// Gravity of the flow, slope included. Of a shear cell: none, its plate presses instead.
+/// Gravity of the flow, including its slope; zero in a shear cell, which a plate presses instead.
 Gravity<2> gravity_of(const Scene& scene);
 
-/// Scene::geometry's boundary grains that move; they are the last rows of `grains`.
+/// Moving boundary grains of Scene::geometry; they are the last rows of `grains`.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 
-/// True where any boundary grain moves.
+/// True if any boundary grain moves.
 bool moves_boundaries(const Scene& scene);
 
-// Each in the file of its name.
+// Each is defined in the file of its name in sim/scene/geometry.
 extern const Geometry bed_geometry, drum_geometry, shear_geometry, column_geometry, hopper_geometry;
 
-/// All of them, in the order of --help.
+/// All geometries, in the order of --help.
 const std::vector<const Geometry*>& geometries();
 
-/// The scene at t = 0: the gate of a column or the plug of a hopper is gone, the plate of a shear
-/// cell lies on the grains, the gravity of the flow acts, and boundaries begin to move.
+/// Simulation at t = 0: the gate of a column or the plug of a hopper is removed, the plate of a
+/// shear cell is added on top of the grains, gravity_of() acts, and boundaries begin to move.
 Simulation release(const Simulation& deposited, const Scene& scene);
 
-/// Gives `simulation`, whose clock is set, the gravity and the moving boundaries of the flow.
+/// Sets the gravity and the moving boundaries of the flow; the clock must be set before.
 void start_flow(Simulation& simulation, const Scene& scene);
 
 }  // namespace grseg

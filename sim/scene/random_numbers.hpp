@@ -13,19 +13,19 @@
 
 namespace grseg {
 
-/// The random numbers of a seed (Mersenne twister), always the same.
+/// Random numbers (Mersenne twister): the same for a seed on every machine.
 class RandomNumbers {
  public:
   explicit RandomNumbers(std::uint64_t seed) { gsl_rng_set(generator_.get(), seed); }
 
-  /// In [0, 1).
+  /// Uniform random number in [0, 1).
   double uniform() { return gsl_rng_uniform(generator_.get()); }
 
-  // Gaussian numbers and directions follow gsl_ran_gaussian and gsl_ran_dir_2d operation by
-  // operation. They are compiled here, without contraction, because GSL on Arm rounds them
+  // The following functions repeat gsl_ran_gaussian and gsl_ran_dir_2d operation by operation. They
+  // are compiled here, without contraction of products and sums, because GSL on Arm rounds
   // differently.
 
-  /// A normal number of mean 0 and standard deviation `deviation`.
+  /// Normal random number of mean 0 and standard deviation `deviation`.
   double gaussian(double deviation)
   {
     double y = 0, squared = 0;
@@ -37,7 +37,7 @@ class RandomNumbers {
     return deviation * y * std::sqrt(-2 * std::log(squared) / squared);
   }
 
-  /// A unit vector.
+  /// Random unit vector.
   Vec2 direction()
   {
     double x = 0, y = 0, squared = 0;

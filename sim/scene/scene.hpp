@@ -15,59 +15,59 @@ namespace grseg {
 
 class Geometry;
 
-/// Grains of two species and what bounds them, as the user asks for it, in SI. Members are keys of
-/// a scene file and options of the same name; sim/scene/keys/keys.cpp lists the keys with their
-/// defaults, ranges and help, and resolve_scene fills a scene from them.
+/// Settings of a simulation of two species of grains within boundaries, in SI. Members are keys of
+/// a scene file and options of the same name. sim/scene/keys/keys.cpp lists the keys with their
+/// defaults, ranges and help; resolve_scene() sets the members from them.
 struct Scene {
-  double small_diameter = 0;         // m, nominal d_S
-  double size_ratio = 0;             // nominal d_L/d_S
-  double large_diameter = 0;         // m, nominal d_L: no key, size_ratio times d_S
-  double spread = 0;                 // (d_max - d_min)/d of each species, uniform
-  double density = 0;                // kg/m^2, of the small grains and of the boundary
-  double density_ratio = 0;          // of the large grains over that
-  double phi_large = 0;              // share of the large grains in the area of all grains
-  std::optional<long> large_grains;  // their number, where it is given instead
+  double small_diameter = 0;         // m, nominal diameter d_S of small grains
+  double size_ratio = 0;             // nominal d_L/d_S of large and small grains
+  double large_diameter = 0;         // m, nominal d_L = size_ratio d_S; not a key
+  double spread = 0;                 // (d_max - d_min)/d of the uniform diameters of each species
+  double density = 0;                // kg/m^2, of small grains and boundary grains
+  double density_ratio = 0;          // density of large grains over density of small ones
+  double phi_large = 0;              // area fraction of large grains among all mobile grains
+  std::optional<long> large_grains;  // number of large grains, given instead
   enum class Initial { large_below, mixed, large_above } initial{};
   const Geometry* geometry = nullptr;
-  double depth = 0;       // m, height H0 of the deposited bed above y = 0
-  double length = 0;      // m, of the cell
-  double slope = 0;       // degrees, at t = 0
-  double slope_rate = 0;  // degrees/s, from then on
-  double gravity = 0;     // m/s^2; of a shear cell: of its deposition, and of its time scale
-  double friction = 0;
+  double depth = 0;        // m, height H0 of the deposited bed above y = 0
+  double length = 0;       // m, length of the cell along x
+  double slope = 0;        // degrees, slope of the base at t = 0
+  double slope_rate = 0;   // degrees/s, rate of the slope after t = 0
+  double gravity = 0;      // m/s^2; in a shear cell for the deposition and the time scale only
+  double friction = 0;     // Coulomb's mu
   double restitution = 0;  // Newton's e
   bool rotation = false;
   ContactLaw law{};
-  double horizon = 0;  // steps, of the speculative law
+  double horizon = 0;  // steps, LawParameters::horizon of the speculative law
   enum class Base { grains, wall } base{};
-  double base_diameter = 0;         // m, mean; all of the base: sim/scene/base_row.hpp
-  double base_diameter_spread = 0;  // (d_max - d_min)/mean
-  double base_height_spread = 0;    // m
-  double base_spacing = 0;          // m, mean along x
-  double base_spacing_spread = 0;   // (max - min)/mean
+  double base_diameter = 0;         // m, mean; base_...: see sim/scene/base_row.hpp
+  double base_diameter_spread = 0;  // (d_max - d_min)/mean of the diameters
+  double base_height_spread = 0;    // m, range of heights
+  double base_spacing = 0;          // m, mean distance of centres along x
+  double base_spacing_spread = 0;   // (max - min)/mean of the distances
   enum class Lateral { periodic, walls } lateral{};
   enum class Origin { top, centre } origin{};
 
-  double drum_diameter = 0;    // m, between the beads
-  double drum_rate = 0;        // rad/s, counter-clockwise
-  double fill = 0;             // share of the drum under the settled bed
-  double plate_speed = 0;      // m/s
-  double plate_pressure = 0;   // N/m
-  double plate_mass = 0;       // kg
-  double column_width = 0;     // m, before the gate opens
-  double outlet = 0;           // m
-  double shake_amplitude = 0;  // m, of the base, vertical
+  double drum_diameter = 0;    // m, inner diameter
+  double drum_rate = 0;        // rad/s, angular velocity of the drum, counter-clockwise
+  double fill = 0;             // share of the drum's area covered by the settled bed
+  double plate_speed = 0;      // m/s, of a shear cell
+  double plate_pressure = 0;   // N/m, of a shear cell
+  double plate_mass = 0;       // kg, of a shear cell
+  double column_width = 0;     // m, width of the column before the gate opens
+  double outlet = 0;           // m, width of a hopper's outlet
+  double shake_amplitude = 0;  // m, amplitude of the base's vertical motion
   double shake_frequency = 0;  // Hz
 
-  double duration = 0;        // s after the tilt
-  double frame_interval = 0;  // s
-  std::int64_t burst = 0;     // consecutive frames, one per step, at each interval
+  double duration = 0;        // s, duration of the flow after t = 0
+  double frame_interval = 0;  // s, from frame to frame or from burst to burst
+  std::int64_t burst = 0;     // number of frames per burst, one per step
   bool keep_deposition = false;
   std::uint64_t seed = 0;
-  int threads = 0;  // frames do not depend on it
+  int threads = 0;  // number of threads; frames do not depend on it
 
-  std::string accuracy;  // draft, standard, reference
-  double step = 0;       // s
+  std::string accuracy;  // draft, standard or reference
+  double step = 0;       // s, duration of a time step
   SolverSettings solver;
 
   int compression = 0;
@@ -77,24 +77,24 @@ struct Scene {
   std::int64_t steps_in_all() const { return std::llround(duration / step); }
 };
 
-/// Numbers of the contact law of a scene.
+/// Parameters of the contact law of a scene.
 inline LawParameters law_parameters(const Scene& scene)
 {
   return law_parameters(scene.law, scene.horizon, scene.step, scene.gravity, scene.small_diameter);
 }
 
-/// A key has a value that it cannot have.
+/// Error in the value of a key.
 struct SceneError : UsageError {
   SceneError(const std::string& of, const std::string& sentence) : UsageError(sentence), key(of) {}
   std::string key;
 };
 
-/// SceneError unless `valid`.
+/// Throws SceneError unless `valid`.
 inline void require(bool valid, const std::string& key, const std::string& sentence)
 {
   if (!valid) throw SceneError(key, sentence);
 }
-/// SceneError unless low <= value <= high.
+/// Throws SceneError unless low <= value <= high.
 void require_within(double value, const std::string& key, double low, double high);
 
 }  // namespace grseg

@@ -8,31 +8,32 @@
 
 namespace grseg {
 
-/// Boundary grains that move as one body, from t = 0 on. Motion is prescribed; of a body with a
-/// mass only that along x, whereas along y it follows from its load and its contacts.
+/// Boundary grains that move as one body, from t = 0 on. Their motion is prescribed. If the body
+/// has a mass, only its motion along x is prescribed; along y it follows from its load and its
+/// contacts.
 struct BoundaryBody {
-  std::uint32_t begin = 0, end = 0;  ///< rows of Grains
-  Vec2 velocity = Vec2::Zero();      ///< m/s
-  Vec2 amplitude = Vec2::Zero();     ///< m, of a displacement amplitude sin(angular_frequency t)
+  std::uint32_t begin = 0, end = 0;  ///< rows of its grains in Grains
+  Vec2 velocity = Vec2::Zero();      ///< m/s, constant part of the velocity
+  Vec2 amplitude = Vec2::Zero();     ///< m, A of a displacement A sin(angular_frequency t)
   double angular_frequency = 0;      ///< rad/s
-  Vec2 centre = Vec2::Zero();        ///< m, of rotation, at t = 0
-  double spin = 0;                   ///< rad/s, counter-clockwise
-  double mass = 0;                   ///< kg; above 0 the body is free along y
-  double load = 0;                   ///< N, along y, on a body that is free
+  Vec2 centre = Vec2::Zero();        ///< m, centre of rotation at t = 0
+  double spin = 0;                   ///< rad/s, angular velocity, counter-clockwise
+  double mass = 0;                   ///< kg; if above 0, the body moves freely along y
+  double load = 0;                   ///< N, external force along y on a free body
 
   bool free() const { return mass > 0; }
 };
 
-/// Displacement of a body at `time`, s, since t = 0, m.
+/// Displacement of a body from t = 0 to `time` (s), without rotation, m.
 inline Vec2 displacement(const BoundaryBody& body, double time)
 {
   if (time <= 0) return Vec2::Zero();
   return body.velocity * time + body.amplitude * std::sin(body.angular_frequency * time);
 }
 
-/// The velocity, m/s, that takes the point of the body at `position` to where it is prescribed to
-/// be at `time` + `step`: along the chord, so that distances from the axis stay the same. Of a free
-/// body, only x counts.
+/// Velocity, m/s, that moves the point of the body at `position` in one step to its prescribed
+/// place at `time` + `step`. It points along the chord, so that distances from the axis stay the
+/// same. For a free body, only the x component is used.
 inline Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step)
 {
   const Vec2 now = displacement(body, time);

@@ -10,11 +10,11 @@
 #include <type_traits>
 #include <utility>
 
-// Highway compiles what follows once per instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/extrapolation.cpp"
-// In this order.
+// The order of these headers matters.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include "sim/contact/lanes-inl.hpp"
@@ -25,8 +25,8 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// now += factor (now - before), and before = now as it was, in rows of `count` numbers. Rows of
-/// `before` lie side by side; rows of `now` are `apart` numbers from each other.
+/// Sets now = now + factor (now - before), and before = the old `now`, in `rows` rows of `count`
+/// numbers. Rows of `before` are contiguous; rows of `now` begin `apart` numbers from each other.
 template <class Real>
 HWY_INLINE void extrapolate_rows(Real* now, std::size_t apart, Real* before, std::size_t count,
                                  std::size_t rows, Real factor)
@@ -49,7 +49,7 @@ HWY_INLINE void extrapolate_rows(Real* now, std::size_t apart, Real* before, std
   leave_vectors();
 }
 
-// Dispatch takes no templates.
+// Highway cannot dispatch templates.
 void rows_of_doubles(double* now, std::size_t apart, double* before, std::size_t count,
                      std::size_t rows, double factor)
 {

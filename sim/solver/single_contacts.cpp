@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-// Highway compiles what follows once per instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/single_contacts.cpp"
-// In this order.
+// The order of these headers matters.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include "sim/contact/contact_law-inl.hpp"
@@ -22,7 +22,8 @@ namespace {
 
 using SingleD = hn::Rebind<float, D>;
 
-/// Applies the first guesses of a block and takes it over as half a block, from `first` on.
+/// Applies the first guesses of a block of eight contacts, and copies it to half a block of
+/// sixteen, from lane `first` on.
 template <Effects with>
 HWY_INLINE void take_half(const ContactBlock& from, std::size_t first, Motion* motion,
                           BlockOf<float>& to)
@@ -56,7 +57,7 @@ HWY_INLINE void take_half(const ContactBlock& from, std::size_t first, Motion* m
   std::copy_n(from.j.begin(), block_lanes, to.j.begin() + first);
 }
 
-/// Blocks that share no mobile body, two by two.
+/// Copies the blocks of a run, two blocks of eight contacts into one of sixteen.
 template <Effects with>
 void take_run(std::span<const ContactBlock> run, const ContactBlock& neutral, Motion* motion,
               BlockOf<float>* to)
@@ -89,7 +90,7 @@ void take_motion(std::span<const Motion> from, MotionOf<float>* to)
   leave_vectors();
 }
 
-/// Eight contacts' increments, from `first` on.
+/// Adds the increments of eight contacts, from lane `first` on, to a block and its bodies.
 template <Effects with>
 HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double friction,
                           ContactBlock& to, Motion* motion)
@@ -108,7 +109,7 @@ HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double 
     if constexpr (with.friction) {
       const auto limit = hn::Set(d, friction) * normal;
       const auto sum_t = c.impulse_t + single(from.impulse_t) * c.mass_n;
-      // Zeros are positive, whatever the sign of what single precision could not resolve.
+      // Adding zero turns -0 into 0: the sign of an unresolved increment has no meaning.
       const auto tangential = smaller(larger(sum_t, minus(limit)), limit) + hn::Zero(d);
       hn::Store(tangential, d, &to.impulse_t[lane]);
       more_t = tangential - c.impulse_t;
@@ -149,8 +150,8 @@ HWY_EXPORT(give_run_for);
 
 constexpr std::size_t numbers_per_body = sizeof(Motion) / sizeof(double);
 
-/// do_run(blocks, number of their first single block) for each run of a strip; returns how many
-/// single blocks there are.
+/// Calls do_run(blocks of the run, index of its first block in single precision) for each run of a
+/// strip; returns the number of blocks in single precision.
 template <class Run>
 std::uint32_t for_each_run(const BlockRuns& strip, const Run& do_run)
 {

@@ -11,28 +11,28 @@
 
 namespace grseg {
 
-/// The contacts of a step in single precision: sweeps relax twice as many at a time, and memory has
-/// half as much to carry. All numbers are velocities in m/s or ratios (ContactOf<float>), whatever
-/// the unit of mass.
+/// The contacts of a step in single precision: a sweep relaxes twice as many at a time and
+/// transfers half as many bytes. All numbers are velocities in m/s or ratios (Increments), so that
+/// the unit of mass does not matter.
 class SingleContacts {
  public:
-  /// Applies the first guesses of the impulses to `motion`, whose last entry is the body that never
-  /// moves, and takes over contacts and velocities.
+  /// Applies the first guesses of the impulses to `motion`, whose last entry is the immobile body,
+  /// and copies contacts and velocities to single precision.
   void take(std::span<const BlockRuns> strips, std::span<Motion> motion, Effects effects,
             int threads);
 
   std::span<const RunsOf<float>> strips() const { return runs_; }
   std::span<MotionOf<float>> motion() { return motion_; }
 
-  /// Adds a strip's increments to the impulses that they were taken from, and to the velocities. An
-  /// impulse that rounding took beyond Signorini's or Coulomb's limit is set to it.
+  /// Adds the increments of a strip to the impulses in `contacts` and to the velocities. An impulse
+  /// that round-off carried beyond Signorini's or Coulomb's limit is set to the limit.
   void give_back(std::size_t strip, const BlockRuns& contacts, double friction, Effects effects,
                  Motion* motion) const;
 
  private:
   struct Strip {
-    std::vector<BlockOf<float>> blocks;  // `runs_` says how many are in use; never shrinks
-    std::vector<std::uint32_t> ends;     // as in RunsOf
+    std::vector<BlockOf<float>> blocks;  // the number in use is in `runs_`; never shrinks
+    std::vector<std::uint32_t> ends;     // end of each run, as in RunsOf
   };
   static void take_strip(const BlockRuns& contacts, Motion* motion, std::uint32_t idle,
                          Effects effects, Strip& strip);

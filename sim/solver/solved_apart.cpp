@@ -8,30 +8,30 @@
 namespace grseg {
 namespace {
 
-// A body's velocity has settled when it changes by no more than this part of what a sweep made it
-// change. Measured: from 1e-4 on a bed between plates no longer creeps (docs/studies/scenes.md).
+// A free body's velocity has settled if a round changes it by at most this fraction of the largest
+// change since the sweep. Measured: a bed between plates no longer creeps at 1e-4 or less
+// (docs/studies/scenes.md).
 constexpr double body_settled = 1e-6;
 constexpr int most_body_rounds = 40;
 
-// Change of a round over the largest one.
+// A wedged grain has settled if a round changes at most this fraction of the largest change.
 constexpr double settled = 1e-3;
 constexpr int most_rounds = 40;
 
-/// `direction` along the normal and the tangent of a contact.
+/// Components of `direction` along the normal and the tangent of a contact.
 Vec2 parts_of(const Vec2& direction, const Contact& contact)
 {
   const Vec2 n(contact.nx, contact.ny), t(-contact.ny, contact.nx);
   return {direction.dot(n), direction.dot(t)};
 }
 
-/// Unit vector from the point of contact a to the point of contact b; both are contacts of one
-/// disc.
+/// Unit vector from contact point a to contact point b of one disc.
 Vec2 line_between(const Contact& a, const Contact& b)
 {
   return Vec2(a.kappa * a.nx - b.kappa * b.nx, a.kappa * a.ny - b.kappa * b.ny).normalized();
 }
 
-/// True where the bodies of two contacts move apart, by more than round-off.
+/// True if the bodies j of two contacts move apart, by more than round-off.
 bool part(const Contact& a, const Contact& b, std::span<const Motion> motion)
 {
   const auto velocity = [&](const Contact& c) {
@@ -42,8 +42,8 @@ bool part(const Contact& a, const Contact& b, std::span<const Motion> motion)
   return (of_b - of_a).dot(line_between(a, b)) > 1e-6 * (of_a.norm() + of_b.norm());
 }
 
-/// True where friction can lock a disc by two of its contacts, which then need not rebound; between
-/// bodies that move apart they bear nothing at first.
+/// True if friction can lock a disc between two of its contacts. Limits the rebounds of such
+/// contacts to 0, and sets their first guesses to 0 if the two bodies move apart.
 bool prepare(std::span<const ContactPlace> contacts, std::span<const Motion> motion,
              double friction)
 {
@@ -114,7 +114,7 @@ FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std
                        std::span<const BlockRuns> strips, std::span<const Motion> motion)
 {
   constexpr auto nobody = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> body_at(motion.size(), nobody);  // by place
+  std::vector<std::uint32_t> body_at(motion.size(), nobody);  // per index in `motion`
   for (const auto& body : bodies) {
     if (!body.free()) continue;
     Body own{body.mass, 0, {}, {}};

@@ -12,18 +12,18 @@
 namespace grseg {
 namespace {
 
-// Sweeps cannot resolve the last digits of velocities. Where loads fade, as in a gas, a tolerance
-// relative to them may be smaller than that, and would never be met; after so many sweeps changes
-// are compared with the velocities, too.
+// Sweeps cannot resolve the last digits of velocities. If loads fade, as in a gas, a tolerance
+// relative to the loads may be smaller than these digits and would never be met. After
+// `sweeps_before_round_off` sweeps changes are therefore compared with the velocities, too.
 template <class Real>
 constexpr double last_digits = 8 * double{std::numeric_limits<Real>::epsilon()};
 constexpr int sweeps_before_round_off = 32;
 
-// In so many sweeps from a good first guess changes hardly ever grow; in more they do, and without
-// a restart extrapolation would do worse than plain sweeps.
+// Number of sweeps after a good first guess in which changes hardly ever grow. In more sweeps they
+// do, and extrapolation without a restart would converge more slowly than plain sweeps.
 constexpr int most_without_restart = 8;
 
-/// m/s, the largest component of all velocities.
+/// Largest component of all velocities, m/s.
 template <class Real>
 double fastest(std::span<const MotionOf<Real>> motion)
 {
@@ -44,9 +44,8 @@ SweepResult total(const std::vector<SweepResult>& strips)
   return total;
 }
 
-/// Which strips are swept: all, until few have changes above the tolerance; then only these and
-/// their neighbours, because somewhere in a wide scene there is always a contact that needs more
-/// sweeps.
+/// Chooses the strips to sweep: all strips, until few have changes above the tolerance, then only
+/// these and their neighbours. In a wide scene some contact always needs more sweeps.
 template <class Real>
 class LocalWork {
  public:
@@ -58,16 +57,16 @@ class LocalWork {
 
   bool swept(std::size_t strip) const { return swept_[strip] != 0; }
   bool local() const { return local_; }
-  /// As many as if every strip had been swept as often.
+  /// Number of sweeps over all strips with the same number of relaxations, rounded up.
   int rounds() const { return static_cast<int>((relaxed_ + all_ - 1) / all_); }
 
-  /// A sweep over the chosen strips has been made.
+  /// To be called after a sweep over the chosen strips.
   void count()
   {
     for (std::size_t s = 0; s < strips_.size(); ++s)
       if (swept(s)) relaxed_ += strips_[s].blocks.size();
   }
-  /// After a sweep that left these changes.
+  /// To be called after count(), with the results of the sweep; chooses the strips of the next one.
   void choose(const std::vector<SweepResult>& results, double limit)
   {
     const auto unsettled = [&](std::size_t s) { return results[s].largest > limit; };
@@ -85,11 +84,11 @@ class LocalWork {
  private:
   std::span<const RunsOf<Real>> strips_;
   std::vector<std::uint8_t> swept_;
-  std::size_t relaxed_ = 0, all_ = 0;  // blocks
+  std::size_t relaxed_ = 0, all_ = 0;  // blocks relaxed so far; blocks in all strips
   bool local_ = false;
 };
 
-/// One solve, from the first guess on, which the velocities contain.
+/// One solve; the velocities must already include the effect of the first guess.
 template <class Real>
 class Sweeping {
  public:
@@ -124,16 +123,16 @@ class Sweeping {
   }
 
  private:
-  /// The first sweeps over several strips, whose changes nobody waits for: the least number, but
-  /// not more than may go without a restart of the extrapolation.
+  /// Makes the first sweeps over several strips, whose results no decision depends on: as many as
+  /// the least number of sweeps, but not more than most_without_restart.
   SweepResult first_of_several()
   {
     const int rounds = (std::min(least_, most_without_restart) + at_a_time_ - 1) / at_a_time_;
     const auto last = static_cast<std::size_t>(rounds - 1);
-    std::vector<double> factors;  // between two rounds
+    std::vector<double> factors;  // of the extrapolation after each round but the last
     for (std::size_t round = 0; round < last; ++round)
       factors.push_back(extrapolation_.next_factor());
-    std::vector<SweepResult> before(strips_.size());  // of the last round but one
+    std::vector<SweepResult> before(strips_.size());  // results of the last round but one
     Wavefront(strips_.size(), rounds)
         .run(
             task_.threads,
@@ -164,7 +163,7 @@ class Sweeping {
     return result;
   }
 
-  /// m/s, the largest change.
+  /// Solves free bodies and wedged grains; returns the largest change of a velocity, m/s.
   double solve_apart()
   {
     double largest = 0;
@@ -188,7 +187,7 @@ class Sweeping {
 
   SolverReport report_on(const SweepResult& result)
   {
-    // Without gravity the sweep that lets the last contact go leaves a reference of 0.
+    // Without gravity, the reference is 0 after the sweep in which the last contact opens.
     const auto relative = [&](double change) {
       return change == 0 ? 0 : change / reference(result);
     };
@@ -205,7 +204,7 @@ class Sweeping {
     return report;
   }
 
-  /// m/s, the mean of W p, within its range.
+  /// Reference velocity, m/s: quadratic mean of W p, limited to its range.
   double reference(const SweepResult& result) const
   {
     const double mean = std::sqrt(result.sum_reference / static_cast<double>(task_.count));
@@ -216,13 +215,13 @@ class Sweeping {
   std::span<MotionOf<Real>> motion_;
   const SolverTask& task_;
   ExtrapolationOf<Real>& extrapolation_;
-  const int least_;  // sweeps
-  // The second sweep of a strip finds its contacts in the cache.
+  const int least_;  // least number of sweeps
+  // Sweeps of a strip in a row: in the second one, its contacts are in the cache.
   const int at_a_time_;
   int sweeps_ = 0;
-  std::vector<SweepResult> results_;  // of the last sweep, strip by strip
+  std::vector<SweepResult> results_;  // per strip, of the last sweep
   LocalWork<Real> work_;
-  double round_off_ = 0;  // m/s, once it is needed
+  double round_off_ = 0;  // m/s, set when it is needed
 };
 SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> motion,
                          const SolverTask& task, SolverMemory& memory)
@@ -255,8 +254,8 @@ SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion>
     apply();
     return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
   }
-  // Rounds of a body and its contacts may pass impulses far larger than those they end with.
-  // Velocities that follow from the last impulses alone keep none of their last digits.
+  // Impulses may be far larger in between than at the end, and their round-off stays in velocities.
+  // So velocities are computed again, from the final impulses alone.
   memory.free_flight.assign(motion.begin(), motion.end());
   apply();
   apart.free->update_velocities(motion);

@@ -13,25 +13,26 @@
 
 namespace grseg {
 
-/// Precision in which sweeps relax contacts. `mixed` is single precision: a contact's relative
-/// velocity is then off by some 1e-7 of the fastest velocity, far below the tolerance of a flow.
-/// All else is done in double precision. Sweeps find increments on the first guesses, which are
+/// Precision in which sweeps relax contacts. `mixed`: sweeps in single precision, everything else
+/// in double precision. The error of a relative velocity is then some 1e-7 of the fastest velocity,
+/// far below the tolerance of a flow. Sweeps compute increments on the first guesses, which are
 /// added to impulses and velocities at the end, so that momentum and angular momentum balance to
-/// round-off.
+/// round-off of double precision.
 enum class Precision { mixed, doubles };
 
 struct SolverSettings {
-  double tolerance = 1e-2;  ///< on SolverReport::residual
+  double tolerance = 1e-2;  ///< largest accepted SolverReport::residual
   int max_sweeps = 500;
-  bool acceleration = false;
-  /// Least number of sweeps, unless one changes nothing (see solve_contacts). A sweep passes a load
-  /// on to the next grain only, so while a bed still has to find its weight small changes do not
-  /// mean small errors: such a bed is soft if every step stops at the first or second sweep.
+  bool acceleration = false;  ///< extrapolate sweeps (ExtrapolationOf)
+  /// Least number of sweeps, unless a sweep changes nothing (see solve_contacts). A sweep transmits
+  /// a load to the next grain only. So while a load is still spreading through the bed, small
+  /// changes do not mean small errors; the bed is soft if every step stops at the first or second
+  /// sweep.
   int min_sweeps = 1;
   Precision precision = Precision::doubles;
 };
 
-/// Memory of the solver, kept by the caller from step to step.
+/// Scratch space of the solver, which the caller reuses in every step.
 struct SolverMemory {
   ExtrapolationOf<double> doubles;
   ExtrapolationOf<float> singles;
@@ -39,7 +40,7 @@ struct SolverMemory {
   std::vector<Motion> free_flight;
 };
 
-/// m/s, the range of the velocity that changes are compared with.
+/// Limits of the reference velocity, with which changes are compared, m/s.
 struct ReferenceRange {
   double least, most;
 
@@ -49,9 +50,9 @@ struct ReferenceRange {
   }
 };
 
-/// A solve apart from its contacts and bodies.
+/// Parameters of a solve.
 struct SolverTask {
-  std::size_t count;  // of contacts
+  std::size_t count;  // number of contacts
   double friction;
   Effects effects;
   SolverSettings settings;
@@ -63,34 +64,34 @@ struct SolverTask {
 /// Outcome of a step's solve. Not converging is a result: it is stored and reported, not thrown.
 struct SolverReport {
   int sweeps = 0;           ///< relaxations per contact, rounded up
-  double residual = 0;      ///< largest change of the last sweep / reference velocity
-  double residual_rms = 0;  ///< the same in the quadratic mean, which hides newcomers
+  double residual = 0;      ///< largest change in the last sweep over the reference velocity
+  double residual_rms = 0;  ///< r.m.s. change in the last sweep over the reference velocity
   bool converged = true;
 };
 
-/// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while the others hold
-/// still. Impulses in the blocks are the first guess; they are applied to `motion` here, whose last
-/// entry is the body that never moves.
+/// Projected Gauss-Seidel: sweeps over the contacts, each solved exactly while all others keep
+/// their impulses. Impulses in the blocks are the first guess; they are applied to `motion` here.
+/// The last entry of `motion` is the immobile body.
 ///
-/// The solve ends when no contact's relative velocity changes by more than `tolerance` times the
-/// reference velocity: the quadratic mean of W p over the `count` contacts, within `range`, so that
-/// a motionless bed stops at once and a few contacts of light grains under a heavy one do not count
-/// for all. Normal and tangential parts both count. The largest rather than the mean change
-/// decides, so that a contact which has just closed is not hidden by thousands of settled ones.
-/// `min_sweeps` come first. Changes in the last digits of the fastest velocity are convergence,
-/// too: without gravity loads fade, and no number of sweeps makes changes small against them.
+/// The solve ends when a sweep changes no contact's relative velocity by more than `tolerance`
+/// times the reference velocity, but not before `min_sweeps` sweeps. The reference velocity is the
+/// quadratic mean of W p over the `count` contacts, normal and tangential. It is limited to
+/// `range`, so that a motionless bed stops at once and a few contacts of light grains under a heavy
+/// one do not dominate. The criterion uses the largest change, not the mean, so that thousands of
+/// settled contacts do not hide one that has just closed. Changes in the last digits of the fastest
+/// velocity also count as convergence: without gravity loads fade, and no number of sweeps makes
+/// changes small compared with them.
 ///
-/// With `acceleration` sweeps are extrapolated (ExtrapolationOf). Free bodies and wedged grains are
-/// solved in double precision, whatever the setting.
+/// With free bodies or wedged grains everything is solved in double precision.
 ///
-/// Contacts come in strips and are swept run after run: first even strips, several at a time, then
-/// odd ones. Strips that are not neighbours share no mobile body; sums are added strip by strip.
-/// Where there are several strips, each is swept twice before the next, and counts as swept twice.
-/// The first eight sweeps are never the last and never restart the extrapolation, so each strip
-/// starts one as soon as its neighbours have finished theirs (Wavefront); not so with bodies that
-/// are solved apart. When changes above the tolerance are left in a quarter of the strips or less,
-/// only these and their neighbours are swept further, without extrapolation; with bodies that are
-/// solved apart all are.
+/// Contacts are divided into strips (pair_search.hpp), and within a strip into runs. A sweep
+/// relaxes first even strips, several at a time, then odd ones. Strips that are not neighbours
+/// share no mobile body; sums are added strip by strip. If there are several strips, each is swept
+/// twice in a row, which counts as two sweeps. The first eight sweeps are never the last and never
+/// restart the extrapolation, so each strip starts one as soon as its neighbours have finished
+/// theirs (Wavefront). If changes above the tolerance remain in at most a quarter of the strips,
+/// only these and their neighbours are swept further, without extrapolation. Neither is done with
+/// bodies that are solved separately (SolvedApart).
 SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion> motion,
                             const SolverTask& task, SolverMemory& memory);
 

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cctype>
 
-// Highway compiles what follows once per instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #include "sim/contact/targets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/solver/sweep.cpp"
-// In this order.
+// The order of these headers matters.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include "sim/contact/contact_law-inl.hpp"
@@ -24,7 +24,7 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// SweepResult, lane by lane.
+/// SweepResult, one number per lane.
 template <class Real, Measured measured>
 struct alignas(64) LaneResults {
   using Tag = TagOf<Real>;
@@ -54,8 +54,8 @@ struct alignas(64) LaneResults {
 };
 
 /// Relaxes blocks that share no mobile body. The bodies of the next contacts are loaded before the
-/// present ones are relaxed: a relaxation is one long chain of operations, and the processor does
-/// not look far enough ahead to fill its pauses with the next one by itself.
+/// present contacts are relaxed. A relaxation is one long chain of operations, and the processor
+/// does not look far enough ahead to fill its pauses with the next relaxation by itself.
 template <Effects with, class Real, class Results>
 HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* motion,
                           hn::Vec<TagOf<Real>> friction, Results& results)
@@ -110,7 +110,7 @@ void apply(std::span<const ContactBlock> blocks, Motion* motion)
   leave_vectors();
 }
 
-/// The only place where a scene's effects become a compile-time choice.
+/// Returns sweep() with the effects of the scene as template arguments.
 template <class Real>
 SweepOf<Real> sweep_for(Effects e, Measured measured)
 {
@@ -121,7 +121,7 @@ SweepOf<Real> sweep_for(Effects e, Measured measured)
       },
       e.friction, e.rotation, e.restitution, measured == Measured::all);
 }
-// Dispatch takes no templates.
+// Highway cannot dispatch templates.
 SweepOf<double> double_sweep_for(Effects e, Measured measured)
 {
   return sweep_for<double>(e, measured);
@@ -155,7 +155,7 @@ HWY_EXPORT(single_sweep_for);
 HWY_EXPORT(apply_for);
 HWY_EXPORT(target);
 
-/// Highway's name in lower case, but for one that users know by another name.
+/// Highway's name of an instruction set in lower case; "avx512" for its AVX3.
 std::string name_of(std::int64_t target)
 {
   std::string name = hwy::TargetName(target);
@@ -184,8 +184,8 @@ void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effect
 
 Relax choose_relax(Effects e)
 {
-  // Compiled for the instruction set that every processor has: with others g++ 12 fuses products
-  // and sums of single numbers.
+  // Compiled for the instruction set that every processor has: for others, g++ 12 would fuse
+  // products and sums of scalars.
   return with_flags(
       []<bool friction, bool rotation>() -> Relax {
         return HWY_NAMESPACE::relax<Effects{friction, rotation, true}, Contact, Motion, double>;
@@ -213,7 +213,7 @@ void use_instruction_set(const std::string& name)
     if (name == name_of(target)) chosen = target;
   if (chosen == 0 && !name.empty()) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    throw UsageError(fmt::format("unknown instruction set '{}'; this machine has {}", name,
+    throw UsageError(fmt::format("--isa: unknown instruction set '{}'; this machine has {}", name,
                                  fmt::join(instruction_sets(), ", ")));
   }
   hwy::SetSupportedTargetsForTest(chosen);

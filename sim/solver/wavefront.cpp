@@ -18,17 +18,17 @@ void Wavefront::run(int threads, const Action& work, const Action& finish)
   }
 }
 
-/// One thread's share: strips begin .. end-1.
+/// Runs the part of one thread: strips begin .. end-1.
 void Wavefront::run_between(std::size_t begin, std::size_t end, const Action& work,
                             const Action& finish)
 {
   for (std::size_t s = begin, through = 0; through < end - begin;) {
     if (go_ahead(s, work, finish)) {
       if (finished_[s] == rounds_) ++through;
-      if (s > begin) --s;  // it may have waited for this one
+      if (s > begin) --s;  // strip s - 1 may have waited for strip s
     } else if (++s == end) {
       s = begin;
-      std::this_thread::yield();  // others have to go ahead first
+      std::this_thread::yield();  // strips of other threads must advance first
     }
   }
 }
@@ -50,7 +50,8 @@ bool Wavefront::go_ahead(std::size_t strip, const Action& work, const Action& fi
   return true;
 }
 
-/// In a row, too, the first strip waits for the last and the other way round, without need.
+/// True if both neighbours of a strip have done `rounds` rounds. First and last strip count as
+/// neighbours, which a row of strips does not need.
 bool Wavefront::neighbours_have(const Counts& counts, std::size_t strip, int rounds)
 {
   const std::size_t last = counts.size() - 1;

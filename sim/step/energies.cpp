@@ -60,7 +60,7 @@ EnergyBalance energy_balance(const Grains& grains, const Frame<2>& frame,
                              std::span<const Motion> before, const Vec2& gravity, double step)
 {
   EnergyBalance balance;
-  // Means of before and after.
+  // Means of the values before and after the step.
   std::vector<Vec2> velocity(grains.size());
   std::vector<double> rim_speed(grains.size());
   for (std::size_t g = 0; g < grains.size(); ++g) {

@@ -9,23 +9,22 @@
 
 namespace grseg {
 
-/// Energies of the mobile grains, J (per metre of depth): sum of m v^2/2, of I omega^2/2 with
-/// I = m r^2/2, and of -m g . x, which is zero at the origin.
+/// Energies of the mobile grains, J (per metre of depth): sums of m v^2/2; of I omega^2/2 with I =
+/// m r^2/2; and of -m g . x, which is zero at the origin.
 double translational_energy(const Simulation& simulation);
 double rotational_energy(const Simulation& simulation);
 double potential_energy(const Simulation& simulation);
 
-/// Balance of the kinetic energy (J per metre of depth) over a step. The mid-point scheme obeys KE'
-/// - KE = sum m g h . (v + v')/2 + sum p . (u + u')/2 to round-off, with p a contact's impulse and
-/// u the relative velocity of the grains where they touch, before and after (theta = 1/2; Acary &
-/// Brogliato 2008, section 10.1). Work of contacts below zero is dissipation; the work of moving
-/// boundaries on the grains is counted apart.
+/// Balance of the kinetic energy KE (J per metre of depth) over a step. The mid-point scheme obeys
+/// KE' - KE = sum m g h . (v + v')/2 + sum p . (u + u')/2 to round-off, with p the impulse of a
+/// contact and u the relative velocity of the two surfaces at the contact; a prime means after the
+/// step (theta = 1/2; Acary & Brogliato 2008, section 10.1). Negative work of contacts is
+/// dissipation; the work of moving boundaries on the grains is a term of its own.
 struct EnergyBalance {
   double kinetic_before = 0, kinetic_after = 0, work_of_gravity = 0, work_of_contacts = 0,
          work_of_boundaries = 0;
 
-  /// Part of the balance that the terms leave unexplained, over the largest of them; 0 if nothing
-  /// moves.
+  /// Error of the balance over its largest term; 0 if nothing moves.
   double defect() const;
 };
 

@@ -13,7 +13,7 @@
 
 namespace grseg {
 
-// Plain pointers, captured by value; otherwise the compiler fetches them again for every grain.
+// Pointers are copied into the lambdas; otherwise the compiler reads them again for every grain.
 
 void move_bodies(double duration, GrainState& grains, int threads)
 {
@@ -34,7 +34,7 @@ double move_bodies(double duration, double onward, GrainState& grains, std::vect
   auto *position = grains.position.data(), *then = ahead.data();
   const auto* motion = grains.motion.data();
   for_ranges(threads, grains.position.size(), [=, &found](std::size_t begin, std::size_t end) {
-    Velocities here(Vec2(0, 0));  // the body that never moves is one of all
+    Velocities here(Vec2(0, 0));  // velocity of the immobile body
     for (std::size_t b = begin; b < end; ++b) {
       const Vec2 velocity(motion[b].vx, motion[b].vy);
       here.extend(velocity);
@@ -89,7 +89,7 @@ void wrap_positions(double length, GrainState& grains, int threads)
   });
   if (too_far)
     throw RunError(fmt::format(
-        "a grain has crossed the periodic cell more than {} times, and files count no further; "
+        "a grain has crossed the periodic cell more than {} times, the limit of the file format; "
         "choose a shorter duration or a longer cell",
         most_periods));
 }

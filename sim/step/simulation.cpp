@@ -17,21 +17,23 @@
 namespace grseg {
 namespace {
 
-// A motionless bed has converged when no velocity changes by this part of the tolerance times what
-// gravity, or a plate's load, makes of the mean grain in a step.
+// Least reference velocity of the solver (solver.hpp), in velocities that gravity, or a plate's
+// load, adds to the mean grain in a step. It decides when a motionless bed has converged.
 constexpr double floor_of_reference = 1e-3;
 
-// Largest reference velocity of the solver, in velocities that loads give to the mean grain. The
-// mean load is a mean of roots, so that a few heavy or squeezed grains do not dominate it. The
-// factor was measured: in the paper's flow the reference is 6.6 times that velocity in the median
-// and above 16 in less than one step of a hundred (docs/studies/accuracy.md).
+// Largest reference velocity of the solver, in velocities that the mean load of a contact gives to
+// the mean grain. The mean load is the square of a mean of roots, so that a few heavy or squeezed
+// grains do not dominate it. The factor was measured: in the flow of Staron & Phillips (2015) the
+// median of the reference is 6.6 times that velocity, and it is above 16 times in less than one
+// step of a hundred (docs/studies/accuracy.md).
 constexpr double most_of_loads = 16;
-// In the first step, in which boundaries may jerk, it is the load and this part of the fastest
-// approach: otherwise an impact that few sweeps pass on gains or loses a quarter of its energy.
+// In the first step, in which boundaries may start with a jerk, the largest reference is the load's
+// velocity plus this fraction of the fastest approach. Otherwise an impact that few sweeps transmit
+// gains or loses a quarter of its energy.
 constexpr double part_of_approach = 0.1;
 
-// In smallest diameters. The best lies between 0.5 and 0.9, whatever the scene and the accuracy
-// (docs/studies/performance.md).
+// Default skin, in smallest diameters. The fastest is between 0.5 and 0.9 for every scene and
+// accuracy (docs/studies/performance.md).
 constexpr double fastest_skin = 0.7;
 
 double smallest_diameter(const Grains& grains)
@@ -43,7 +45,7 @@ World with_defaults(World world)
 {
   const double smallest = smallest_diameter(world.grains);
   world.law.margin = std::max(world.law.margin, least_margin * smallest);
-  // Independent of the margin, which a restart may change.
+  // The skin does not depend on the margin, because a restart may change the margin.
   if (!(world.skin > 0)) world.skin = fastest_skin * smallest;
   return world;
 }
@@ -54,7 +56,7 @@ World with_skin(World world, double skin)
   return world;
 }
 
-/// Effects whose coefficient is 0 are left out.
+/// Effects to compute: all whose coefficient is not 0.
 Effects effects_of(const World& world)
 {
   return {.friction = world.general || world.material.friction > 0,
@@ -62,8 +64,8 @@ Effects effects_of(const World& world)
           .restitution = world.general || world.material.restitution > 0 || world.law.horizon > 0};
 }
 
-/// Adds the report of a part of the step to the parts before it. Numbers of contacts count
-/// the last part only.
+/// Adds the report of a part of a step to the report of the earlier parts. Numbers of contacts are
+/// from the last part.
 void add_part(const StepReport& part, StepReport& all)
 {
   const auto before = all;
@@ -80,10 +82,10 @@ void add_part(const StepReport& part, StepReport& all)
   all.base_impulse += before.base_impulse;
 }
 
-// An impact is a step in which all impulses together more than double while a pair approaches by
-// more than four times g h. The next step does not bear its impulses, so first guesses that more
-// than doubled are lowered to twice the guess before: they catch up in a few steps where the load
-// lasts.
+// An impact is a step in which the sum of all impulses more than doubles while a pair approaches
+// faster than four times g h. Its impulses do not last, so each impulse that more than doubled is
+// lowered to twice its first guess before it becomes the first guess of the next step. If the load
+// does last, first guesses catch up in a few steps.
 constexpr double most_growth_of_loads = 2;
 constexpr double approach_of_impact = 4;
 
@@ -93,13 +95,13 @@ void scale(double factor, Pairs::Memory& memory)
   memory.t *= factor;
 }
 
-/// A first guess and what is to be taken of it.
+/// First guess that is lowered: its entry in Pairs, and the factor (below 1) to multiply it by.
 struct LoweredGuess {
   std::size_t pair;
   double factor;
 };
 
-/// use(block, origin) for each block of contacts.
+/// Calls use(block, origin) for each block of contacts.
 template <class Use>
 void for_blocks(std::span<const StripContacts> contacts, const Use& use)
 {
@@ -116,7 +118,8 @@ double sum_of_impulses(std::span<const StripContacts> contacts)
   return sum;
 }
 
-/// `guesses` are the impulses that the contacts began with; `fall` is g h, m/s.
+/// First guesses that an impact requires to be lowered. `guesses`: first guesses of this step, kg
+/// m/s; `fall`: g h, m/s.
 std::vector<LoweredGuess> impacts_of(std::span<const StripContacts> contacts,
                                      std::span<const double> guesses, double fall)
 {
@@ -135,7 +138,7 @@ std::vector<LoweredGuess> impacts_of(std::span<const StripContacts> contacts,
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// With fewer grains more threads than one do not pay.
+// Number of grains from which on several threads are faster than one.
 constexpr std::size_t worth_sharing = 30000;
 
 }  // namespace
@@ -255,8 +258,8 @@ void Simulation::take_back(bool renewed)
   move_bodies(-world_.step / 2, state_, threads_);
   forget_search(contacts_);
   if (!renewed) return;
-  renew_pairs(0);    // where no two grains have passed each other
-  restored_ = true;  // the contacts of the step before are entries of an old list
+  renew_pairs(0);    // at positions at which no two grains have passed each other
+  restored_ = true;  // contacts_ of the previous step refer to an old list
 }
 
 WedgedGrains Simulation::wedged_grains(bool any)
@@ -285,7 +288,7 @@ void Simulation::solve(StepReport& report)
                                     [](const auto& body) { return body.free(); });
   std::optional<FreeBodies> free;
   if (any_free) free.emplace(world_.bodies, body_of_, strips, state_.motion);
-  // A plate that moves freely transmits its load by squeezing.
+  // A plate that moves freely transmits its load by squeezing: no grains are treated as wedged.
   auto wedged = wedged_grains(!any_free && effects_.friction);
   const SolvedApart apart{free ? &*free : nullptr, wedged.empty() ? nullptr : &wedged};
   report.solver = solve_contacts(strips, state_.motion,
@@ -366,7 +369,7 @@ void Simulation::forget_impulses(bool renewed)
 double Simulation::unlisted_ahead(double spread)
 {
   const double half = world_.step / 2;
-  // A pair that is listed but does not act yet might pass unseen as well.
+  // The limit also covers listed pairs that do not act yet.
   const double farthest = std::min(world_.skin, most_approach_) - world_.law.margin;
   if (spread * half <= farthest) return 0;
   forecast_positions(world_.law.forecast * world_.step + half, state_, ahead_at_end_, threads_);

@@ -13,26 +13,25 @@
 
 namespace grseg {
 
-/// Largest number of times that a step is halved, so that no pair approaches by more than half the
-/// smallest diameter in a part of it.
+/// Largest number of times that a step is halved to keep the approach of every pair, in each part
+/// of the step, below half the smallest diameter.
 constexpr int most_halvings = 6;
 
 /// Results of one step.
 struct StepReport {
   SolverReport solver;
-  std::size_t touching = 0;       ///< pairs with gap <= 0 at mid-step
-  std::size_t force_bearing = 0;  ///< contacts that carry an impulse
-  double sum_overlap = 0;         ///< m, of -gap over the touching pairs
-  double largest_overlap = 0;     ///< m
-  double sum_gap_bearing = 0;     ///< m, of |gap| over force-bearing contacts
+  std::size_t touching = 0;       ///< number of pairs with gap <= 0 at mid-step
+  std::size_t force_bearing = 0;  ///< number of contacts with an impulse
+  double sum_overlap = 0;         ///< m, sum of -gap over the touching pairs
+  double largest_overlap = 0;     ///< m, largest -gap
+  double sum_gap_bearing = 0;     ///< m, sum of |gap| over force-bearing contacts
   /// m/s, largest approach speed at the beginning of the step, over acting pairs and over unlisted
   /// pairs that could touch within the step.
   double fastest_approach = 0;
-  /// m, fastest_approach times the length of the step or of its part; infinity where two centres
-  /// coincide.
+  /// m, fastest_approach times the duration of the (part of the) step; infinity: centres coincide.
   double farthest_approach = 0;
-  int parts = 1;                     ///< in which the step was taken
-  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of boundary grains and walls on mobile grains
+  int parts = 1;                     ///< number of parts into which the step was divided
+  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of base and walls on mobile grains
 };
 
 /// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2). A step of length h
@@ -44,31 +43,32 @@ struct StepReport {
 ///
 /// sim/contact/contact_law.hpp states which pairs act, and the law that their impulses obey.
 ///
-/// Where a pair would approach by more than half the smallest diameter in a step, so that grains
-/// might pass each other unseen, the step is taken in two halves, and these in halves again, up to
-/// 1/64 of the step. The frame of such a step describes its last part.
+/// If a pair would approach by more than half the smallest diameter in a step, its grains might
+/// pass through each other without a contact. Then the step is divided into two halves, and these
+/// into halves again, down to 1/64 of the step. The frame of a divided step describes its last
+/// part.
 class Simulation {
  public:
-  /// All that changes from step to step and that later steps depend on.
+  /// All variables on which later steps depend.
   struct State {
-    std::vector<Vec2> position;       // m, as in the cell
-    std::vector<std::int32_t> image;  // periods to add to x
-    std::vector<Vec2> velocity;       // m/s
+    std::vector<Vec2> position;       // m, wrapped into the cell
+    std::vector<std::int32_t> image;  // number of periods to add to x
+    std::vector<Vec2> velocity;       // m/s, per row of Grains
     std::vector<double> rim_speed;    // m/s, radius times angular velocity
-    std::vector<std::int32_t> row;    // of the grains, in the order of memory
+    std::vector<std::int32_t> row;    // row of each grain, in the order of memory
     PairList::State pairs;
     std::int64_t steps_done = 0;
   };
 
   /// Grains start at `position` at rest.
   Simulation(const World& world, const std::vector<Vec2>& position);
-  /// Continues from `state`: with the same world, the steps that follow are bitwise identical. The
-  /// skin is the one of `state`. FormatError as in PairList::restore.
+  /// Continues from `state`, with its skin. With the same world, later steps are bitwise identical
+  /// to an uninterrupted run. Throws FormatError as PairList::restore() does.
   Simulation(const World& world, const State& state);
 
   StepReport advance() { return step(nullptr); }
-  /// Takes a step and writes it as a frame of a trajectory (formats/README.md): positions and
-  /// contacts at mid-step, velocities at its end, forces as means over it, in the order of Grains.
+  /// Computes a step and writes it as a frame of a trajectory (formats/README.md), in the order of
+  /// Grains: positions and contacts at mid-step, velocities at the end, mean forces over the step.
   StepReport advance(Frame<2>& frame) { return step(&frame); }
 
   State state() const;
@@ -77,18 +77,18 @@ class Simulation {
   std::int64_t steps_done() const { return steps_done_; }
   double time() const { return static_cast<double>(steps_done_) * world_.step; }  // s
 
-  /// Sets gravity, which may turn as the clock runs.
+  /// Sets gravity, whose direction may change with time.
   void tilt(const Gravity<2>& gravity)
   {
     gravity_ = gravity;
     world_.gravity = gravity.at(time());
   }
-  /// Replaces World::bodies. Boundary grains of no body stand still from now on.
+  /// Replaces World::bodies. Boundary grains that belong to no body are at rest from now on.
   void drive(const std::vector<BoundaryBody>& bodies);
-  /// Sets the number of steps done, and with it the time; negative before the tilt.
+  /// Sets the number of steps done, and thus time(); negative before the tilt.
   void set_clock(std::int64_t steps) { steps_done_ = steps; }
 
-  /// Grain g, a row of Grains. Its position is unwrapped, as if nothing were periodic.
+  /// In these functions g is a row of Grains. Positions are unwrapped: periods are added.
   Vec2 position(std::size_t g) const;
   const Motion& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
   Vec2 velocity(std::size_t g) const { return {motion(g).vx, motion(g).vy}; }
@@ -98,46 +98,47 @@ class Simulation {
   }
   void set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity = 0);
 
-  /// Motion of each grain at the beginning of the last step, or part of one, that was written to a
-  /// frame, and its length, s.
+  /// Last step, or last part of a divided step, that was written to a frame: motion of each grain
+  /// at its beginning, and its duration, s.
   const std::vector<Motion>& before() const { return before_; }
   double written_step() const { return written_step_; }
 
-  /// m, half the smallest diameter: grains that approach by more in a step might pass unseen.
+  /// Largest approach of a pair in an undivided step, m: half the smallest diameter.
   double most_approach() const { return most_approach_; }
 
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
   StepReport step(Frame<2>* frame);
-  /// The part of a step that begins `begin` steps after the step does.
+  /// Part of a step.
   struct Part {
-    double begin = 0;
-    int halvings = 0;  // of the step
+    double begin = 0;  // time since the beginning of the step, in whole steps
+    int halvings = 0;  // number of times that the step was halved
   };
   void take(const Part& part, Frame<2>* frame, StepReport& report);
-  /// False where the part is too long: positions are then as before, to round-off, and the list of
-  /// pairs belongs to them.
+  /// Returns false if the part is too long. Positions are then restored, to round-off, and the pair
+  /// list is valid for them.
   bool try_to_take(const Part& part, Frame<2>* frame, StepReport& report);
   void take_back(bool renewed);
-  /// True where the list was renewed. `spread`, m/s, as move_bodies() returns it.
+  /// Returns true if the pair list was renewed. `spread`: result of move_bodies(), m/s.
   bool find_contacts(double spread, StepReport& report);
   void forget_impulses(bool renewed);
-  /// Makes the list of pairs for the positions that grains will have `onward`, s, later.
+  /// Makes the pair list for the positions that grains would have after `onward`, s, of free
+  /// flight.
   void renew_pairs(double onward);
-  /// m/s, largest approach speed of grains that do not act and may meet before the end of the step,
-  /// as they move now.
+  /// Upper bound of the approach speed, m/s, of pairs that do not act but may meet before the end
+  /// of the step with their present velocities.
   double unlisted_ahead(double spread);
   [[noreturn]] void stop_at_coincidence(double time) const;
   WedgedGrains wedged_grains(bool any);
-  /// Where there is an impact, lowers the first guesses of the next step.
+  /// After an impact (simulation.cpp), lowers the first guesses of the next step.
   void lower_guesses();
-  double impulse_of_fall() const;  // kg m/s, of gravity or a plate's load in a step
+  double impulse_of_fall() const;  // kg m/s, of gravity or a plate's load in one step
   ReferenceRange reference_range(std::size_t contacts) const;
   void solve(StepReport& report);
   void keep_impulses(StepReport& report);
-  // Writes a solved step before the grains leave its middle, which is at `middle`, s
-  // (snapshot.cpp).
+  // Writes a frame (snapshot.cpp). To be called after the solve, while bodies are at their
+  // positions at mid-step; `middle` is the time of mid-step, s.
   void write_frame(double middle, Frame<2>& frame) const;
   void write_contacts(ContactList<2>& list) const;
 
@@ -147,19 +148,19 @@ class Simulation {
   int threads_;
   PairList pairs_;
   GrainState state_;
-  std::vector<std::uint32_t> body_of_;  // where in the state each grain is
-  std::vector<Vec2> ahead_;             // m, positions after the forecast of the law
-  std::vector<Vec2> ahead_at_end_;      // m, the same for the end of a step; for fast grains only
-  double most_approach_;                // m
-  double mobile_mass_;                  // kg
-  DetectionSums found_;                 // of the contacts
-  std::vector<double> guesses_;         // kg m/s, p_n at first; empty where no impact can be
-  std::vector<Motion> before_;          // by row, at the beginning of a step written to a frame
-  double written_step_ = 0;             // s
+  std::vector<std::uint32_t> body_of_;  // per row of Grains, index in state_
+  std::vector<Vec2> ahead_;             // m, positions after LawParameters::forecast
+  std::vector<Vec2> ahead_at_end_;      // m, half a step later; computed for fast grains only
+  double most_approach_;                // m, see most_approach()
+  double mobile_mass_;                  // kg, sum over all mobile grains
+  DetectionSums found_;                 // sums over the contacts of this step
+  std::vector<double> guesses_;         // kg m/s, first guesses of p_n; empty: no impact
+  std::vector<Motion> before_;          // per row, see before()
+  double written_step_ = 0;             // s, see written_step()
   std::vector<StripContacts> contacts_;
   SolverMemory solver_memory_;
   std::int64_t steps_done_ = 0;
-  bool restored_ = false;  // the step before is known by its impulses only, not by its contacts
+  bool restored_ = false;  // true if contacts_ do not belong to the previous step
 };
 
 }  // namespace grseg

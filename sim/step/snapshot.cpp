@@ -7,10 +7,10 @@
 namespace grseg {
 namespace {
 
-/// A contact as files name it: i < j, but where j does not move; a wall is -1 minus its number.
+/// Contact as in a file: i < j unless j is a boundary grain; j of a wall is -1 minus its number.
 struct NamedContact {
   std::int32_t i, j;
-  bool turned;  // i and j are exchanged
+  bool turned;  // true if i and j are exchanged relative to Pairs
   const ContactBlock* block;
   const BlockOrigin* origin;
   std::size_t lane;
@@ -28,12 +28,12 @@ std::int32_t name_of_wall(const Pairs& pairs, std::size_t pair)
   return -1;
 }
 
-/// Brings x into [0, length); `image` counts the periods that were taken away.
+/// Moves x into [0, length), m, and adds the number of subtracted periods to `image`.
 void wrap(double length, double& x, std::int32_t& image)
 {
   double periods = std::floor(x / length);
   x -= periods * length;
-  if (x >= length) {  // a tiny negative x rounds up to the period itself
+  if (x >= length) {  // round-off for a tiny negative x
     x = 0;
     ++periods;
   }

@@ -11,7 +11,7 @@
 
 namespace grseg {
 
-/// kg, of the grains that can move.
+/// Mass of all mobile grains, kg.
 inline double mobile_mass(const Grains& grains)
 {
   double mass = 0;
@@ -24,18 +24,18 @@ inline double mobile_mass(const Grains& grains)
 struct World {
   Grains grains;
   std::vector<Wall> walls;
-  std::vector<BoundaryBody> bodies;  // of boundary grains that move
+  std::vector<BoundaryBody> bodies;  // boundary grains that move
   Box box;
   Material material;
   bool rotation = true;
-  Vec2 gravity = Vec2::Zero();  // m/s^2, of the last step where the slope turns
-  double step = 0;              // h, s
+  Vec2 gravity = Vec2::Zero();  // m/s^2; if the slope changes, value of the last step
+  double step = 0;              // duration h of a step, s
   SolverSettings solver;
   LawParameters law;
-  double skin = 0;  // m, more than margin, of the pair list; 0 chooses what is fastest
+  double skin = 0;  // m, of the pair list, above law.margin; 0: default
   int threads = 1;  // results do not depend on it
-  /// Friction, restitution and periodicity are computed even where the world has none: the same
-  /// bytes for more time, for measurements and tests.
+  /// Compute friction, restitution and periodicity even if the world has none: the same bytes in
+  /// more time, for measurements and tests.
   bool general = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A grain that is absent counts nowhere: whatever is computed of frames with absent grains equals, to
-// the last bit, the same of frames that hold the others alone.
+// Absent grains have no effect: every result from frames with absent grains is equal, to the last
+// bit, to the result from frames that contain only the present grains.
 #include "analysis/balance/momentum_balance.hpp"
 #include "analysis/check/laws_of_motion.hpp"
 #include "analysis/check/weight_balance.hpp"
@@ -21,7 +21,7 @@ namespace {
 constexpr double step = 1e-3;
 const Vec2 gravity{3, -9};
 
-/// A heap whose grains turn, move and are pulled, at time `t`.
+/// A heap at time `t` in which grains turn, move and are pulled.
 Packing heap_at(double t)
 {
   auto packing = heap();
@@ -42,7 +42,7 @@ Packing heap_at(double t)
   return packing;
 }
 
-/// Without the contacts of grains that are not there; rows stay.
+/// Removes the contacts of absent grains; rows of grains stay.
 void remove_contacts_of_absent(Frame<2>& frame)
 {
   const ContactList<2> all = std::exchange(frame.contacts, {});
@@ -65,7 +65,7 @@ Packing without(Packing packing, const std::vector<std::size_t>& rows)
   return packing;
 }
 
-/// The same grains with no row for those that are absent.
+/// The same grains, without rows for absent ones.
 Packing compacted(const Packing& packing)
 {
   Packing rest;
@@ -93,14 +93,14 @@ Packing compacted(const Packing& packing)
   return rest;
 }
 
-/// Three frames: grains 0 (large), 2 and 5 (small) are absent in the second, 5 and 11 (boundary) in
-/// the third.
+/// Three frames: grains 0 (large), 2 and 5 (small) are absent in the second one, grains 5 and 11
+/// (boundary) in the third one.
 std::vector<Packing> with_absent_grains()
 {
   return {heap_at(1), without(heap_at(1.5), {0, 2, 5}), without(heap_at(2), {5, 11})};
 }
 
-/// The sums of `quantity` over the frames, as numbers, with absent rows and without these rows.
+/// Sums of `quantity` over the frames, as numbers: with rows for absent grains, and without these rows.
 template <class Quantity, class Numbers>
 void expect_equal(const Quantity& nothing, const Numbers& numbers_of)
 {
@@ -128,7 +128,7 @@ void append(std::vector<double>& to, const Values& values)
   to.insert(to.end(), values.begin(), values.end());
 }
 
-/// The rows of all layers.
+/// Rows of all layers.
 template <class Quantity>
 std::vector<double> rows_of(const Quantity& quantity)
 {
@@ -154,7 +154,7 @@ TEST(AbsentGrains, HaveNoPartInTheContactStress)
                  rows_of<PartialContactStress<2>>);
 }
 
-/// About the mean flow of the same frames.
+/// Quantities relative to the mean flow of the same frames.
 template <class Frames>
 MeanVelocity<2> mean_of(const Frames& frames)
 {
@@ -256,7 +256,7 @@ TEST(AbsentGrains, HaveNoPartInTheWeightAbove)
   EXPECT_EQ(with_rows.window().momentum, without_rows.window().momentum);
 }
 
-// A bed at rest that loses a grain: its centre of mass jumps, but nothing has moved.
+// A bed at rest loses a grain: its centre of mass jumps, although nothing has moved.
 TEST(AbsentGrains, DoNotMoveTheCentreOfMass)
 {
   const Box box{10, 10, true};
@@ -276,7 +276,7 @@ TEST(AbsentGrains, DoNotMoveTheCentreOfMass)
   EXPECT_EQ(total.centre, total_motion(others.grains, others.frame, box).centre);
 }
 
-// What a grain brings or takes is not the work of forces.
+// The momentum of a grain that appears or disappears is not the work of forces.
 TEST(AbsentGrains, LeaveTheChangeOfMomentumUndefined)
 {
   MomentumBalance<2> balance(unit_layers, smooth, gravity, step);
@@ -314,7 +314,7 @@ TEST(AbsentGrains, HaveNoPartInTheFluxOfSegregation)
   EXPECT_GT(a[1].value.D_small, 0);
 }
 
-// Displacements are those of grains that are there at both ends; all rise by 0.1 per part.
+// Displacements are computed for grains that are present at both ends; all rise by 0.1 per part.
 TEST(AbsentGrains, AreNotDisplaced)
 {
   const Window window{0, 8, {}};

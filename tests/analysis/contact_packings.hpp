@@ -8,14 +8,14 @@
 #include <random>
 #include <vector>
 
-/// Grains whose partial contact stresses are known by hand or by a sum over contacts, in layers of
-/// height 1 and a cell of length 10.
+/// Packings whose partial contact stresses are known by hand or from a sum over contacts. Layers
+/// have the height 1, the cell the length 10.
 namespace grseg {
 
 inline const Layers unit_layers(1, 10);
 inline const Vec2 push{-0.5, 3};
 
-/// force (x) branch by hand.
+/// Dyadic product force (x) branch, computed by hand.
 inline Tensor2 dyad(const Vec2& f, const Vec2& b)
 {
   Tensor2 t;
@@ -37,7 +37,7 @@ inline PartialContactStress<2> stress_of(const Packing& packing, Assignment assi
 }
 
 /// A large grain at height 2.75 on a small one at height 1.25, touching at 1.75: the large grain's
-/// part is two thirds, the branch is (0, 1.5).
+/// share is two thirds, the branch is (0, 1.5).
 inline Packing large_on_small()
 {
   Packing packing;
@@ -49,7 +49,7 @@ inline Packing large_on_small()
 inline const Tensor2 mixed = dyad(push, {0, 1.5});
 
 /// A small grain of radius 0.5 at height 1.25 on a base grain of radius 1 at -0.25, touching at
-/// 0.75; force (x) branch is `mixed`, too.
+/// 0.75. Its force (x) branch also equals `mixed`.
 inline Packing small_on_base()
 {
   Packing packing;
@@ -59,8 +59,8 @@ inline Packing small_on_base()
   return packing;
 }
 
-/// A heap of grains in a cell of 10 x 5 with forces at random contacts; nothing is in balance,
-/// which sums do not mind.
+/// A heap of grains in a cell of 10 x 5 with random contacts and forces. Forces are not in balance,
+/// which sums do not require.
 inline Packing heap()
 {
   std::mt19937 random(7);
@@ -79,7 +79,7 @@ inline Packing heap()
   return packing;
 }
 
-/// The sum of the contact forces on each grain.
+/// Sum of the contact forces on each grain.
 inline std::vector<Vec2> net_forces(const Packing& packing)
 {
   const auto& list = packing.frame.contacts;

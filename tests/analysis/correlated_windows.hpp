@@ -16,8 +16,8 @@
 #include <memory>
 #include <vector>
 
-/// Windows of known correlation whose mean and whose B are known, with the intervals that grseg-fit
-/// gives them and the plain percentiles that it does not.
+/// Windows of known correlation whose mean and B are known, with the intervals of grseg-fit and,
+/// for comparison, with plain percentiles.
 namespace grseg::synthetic {
 
 inline Eigen::Index total_windows(const RunLengths& runs)
@@ -47,7 +47,7 @@ class Ar1 {
     return values;
   }
 
-  /// One series per run; runs differ by a normal variate of standard deviation `run_scatter`.
+  /// One series per run; means of runs differ by a normal variate with standard deviation `run_scatter`.
   Eigen::VectorXd series(const RunLengths& runs, double run_scatter)
   {
     Eigen::VectorXd values(total_windows(runs));
@@ -67,10 +67,10 @@ class Ar1 {
   double rho_;
 };
 
-/// What several windows say of one number.
+/// Estimate of one number from several windows, and its intervals.
 struct Verdict {
   double estimate = 0;
-  Estimate interval{}, plain{};  // plain: 2.5 and 97.5 % of the samples of blocks
+  Estimate interval{}, plain{};  // plain: 2.5 and 97.5 % percentiles of the samples of blocks
 };
 
 inline bool holds(const Estimate& interval, double truth)
@@ -97,7 +97,7 @@ inline Eigen::VectorXd sampled_means(const Eigen::MatrixXd& times, const Eigen::
   return (times * series).array() / times.rowwise().sum().array();
 }
 
-/// Of the mean of a series.
+/// Verdict on the mean of a series.
 inline Verdict mean_of(const Eigen::VectorXd& series, const Bootstrap& bootstrap)
 {
   const auto how = dependence_of_mean(series, bootstrap.runs());
@@ -107,19 +107,19 @@ inline Verdict mean_of(const Eigen::VectorXd& series, const Bootstrap& bootstrap
           .plain = percentiles(sampled_means(bootstrap.blocks(how.block), series))};
 }
 
-/// Layers whose stresses scatter about sigma^S/sigma^L = 0.966 phi_S/phi_L, by 10 % where the
-/// composition is even and by 32 % at its ends: as grains of the rarer species are counted.
+/// Layers whose stresses scatter about sigma^S/sigma^L = 0.966 phi_S/phi_L: by 10 % if the composition is
+/// even and by 32 % at its ends, as results from counting grains of the rarer species.
 class ScatteredStress {
  public:
   static constexpr double slope = 0.966;
   static constexpr double scatter = 0.1;
   static constexpr double compositions[] = {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95};
 
-  /// The layers of all windows, whose noise is independent from layer to layer.
+  /// Layers of all windows, with noise that is independent from layer to layer.
   static FitData windows(const RunLengths& runs, double run_scatter, Ar1& noise)
   {
     FitData data;
-    data.quantity = Quantity::kinetic;  // two species and nothing mixed
+    data.quantity = Quantity::kinetic;  // two species, no mixed contacts
     data.runs = runs;
     for (const double phi : compositions) {
       std::size_t window = 0;
@@ -129,7 +129,7 @@ class ScatteredStress {
     return data;
   }
 
-  /// What infinitely many windows would give, by Gauss-Hermite quadrature over the noise.
+  /// Estimators in the limit of infinitely many windows, by Gauss-Hermite quadrature over the noise.
   static Estimators truth(double run_scatter)
   {
     constexpr std::size_t nodes = 60;
@@ -147,9 +147,9 @@ class ScatteredStress {
     return estimators_from_sums(weights * window_sums(fit_points(data, {}, {}), data.runs).sums);
   }
 
-  /// A third of that scatter while layers segregate, from phi_L = 0.3 in all of them, under a rule
-  /// that gives B a course over phi_L: that of neutral contacts of which large grains get 0.8.
-  /// Without noise what the fit is to find.
+  /// A third of that scatter, in layers that segregate, starting from phi_L = 0.3 everywhere. The
+  /// rule makes B a function of phi_L: neutral contacts of which large grains get the share 0.8.
+  /// With `noise` null: the exact values that the fit has to find.
   static FitData drifting(std::size_t windows, Ar1* noise)
   {
     FitData data;
@@ -190,16 +190,16 @@ class ScatteredStress {
   }
 };
 
-/// Runs of flows whose B is known, to be sent through fit_flows.
+/// Runs of several flows with known B, as input of fit_flows().
 struct FlowDesign {
-  std::size_t flows = 6, runs = 4;  // of each flow
-  double flow_scatter = 0;          // standard deviation of ln s, in standard errors of one flow
-  double run_variance = 0;          // of ln s between runs, in that of a run's mean without it
+  std::size_t flows = 6, runs = 4;  // number of flows; number of runs of each flow
+  double flow_scatter = 0;          // s.d. of ln s between flows, in standard errors of one flow
+  double run_variance = 0;          // variance of ln s between runs, over that of a run's mean
 };
 
 class RunsOfFlows {
  public:
-  static constexpr std::size_t windows = 10;  // of each run
+  static constexpr std::size_t windows = 10;  // number of windows of each run
   static constexpr double rho = 0.5;
 
   explicit RunsOfFlows(const FlowDesign& design, unsigned long seed = 7)
@@ -207,19 +207,19 @@ class RunsOfFlows {
   {
   }
 
-  /// Runs, and B of what each interval is over.
+  /// Data of all runs, and the true B for each kind of interval.
   struct Draw {
     FitData data;
     struct Truth {
       double of_runs = 0, of_flows = 0, of_equal = 0, of_all = 0;
-      std::vector<double> of_each;  // flow
+      std::vector<double> of_each;  // B of each flow
     } truth;
   };
 
   Draw draw()
   {
     Draw drawn;
-    drawn.data.quantity = Quantity::kinetic;  // two species and nothing mixed
+    drawn.data.quantity = Quantity::kinetic;  // two species, no mixed contacts
     drawn.data.tables = {"synthetic"};
     offset_.clear();
     own_.clear();
@@ -237,14 +237,14 @@ class RunsOfFlows {
   }
 
  private:
-  /// Three layers about the flow's composition.
+  /// phi_L of three layers about the composition of the flow.
   static std::vector<double> layers_of(std::size_t flow)
   {
     static constexpr double compositions[] = {0.1, 0.25, 0.4, 0.5, 0.6, 0.75};
     const double phi = compositions[flow % std::size(compositions)];
     return {phi - 0.05, phi, phi + 0.05};
   }
-  /// Grains of the rarer species, up to a factor, d_L = 2 d_S.
+  /// Number of grains of the rarer species, up to a factor; d_L = 2 d_S.
   static double layer_weight(double phi) { return std::min(phi / 4, 1 - phi); }
   static double layer_scatter(double phi)
   {
@@ -256,7 +256,7 @@ class RunsOfFlows {
     for (const double phi : layers_of(flow)) weight += layer_weight(phi);
     return weight;
   }
-  /// Variance of a run's mean of ln s by its windows' noise alone.
+  /// Variance of a run's mean of ln s that is due to the noise of its windows alone.
   static double run_variance(std::size_t flow)
   {
     double of_mean = 1;
@@ -267,7 +267,7 @@ class RunsOfFlows {
       squares += std::pow(layer_weight(phi) * layer_scatter(phi), 2);
     return squares / std::pow(weight_of(flow), 2) * of_mean / windows;
   }
-  /// Standard error of a flow's ln s, root mean square over the flows.
+  /// Standard error of ln s of a flow, root mean square over the flows.
   double error_of_flow() const
   {
     double squares = 0;
@@ -289,7 +289,7 @@ class RunsOfFlows {
         sums.volume = 1;
         sums.of(OwnSum::inside, 0)(1, 1) = ratio / (1 + ratio);
         sums.of(OwnSum::inside, 1)(1, 1) = 1 / (1 + ratio);
-        sums.of(OwnSum::inside, 0)(0, 0) = no_number;  // xx was not kept
+        sums.of(OwnSum::inside, 0)(0, 0) = no_number;  // the xx component is unknown
         data.samples.push_back({.window = first + k,
                                 .phi_large = phi,
                                 .weight = layer_weight(phi),
@@ -300,7 +300,7 @@ class RunsOfFlows {
     }
   }
 
-  /// A ratio of sums over layers.
+  /// Numerator and denominator of a ratio of sums over layers.
   struct Ratio {
     double above = 0, below = 0;
     double value() const { return above / below; }
@@ -311,8 +311,8 @@ class RunsOfFlows {
       return *this;
     }
   };
-  /// What a flow's layers add to B on average, where ln s is off by `offset` and scatters by
-  /// `variance` beside its windows' noise: the mean of psi_L over the normal distribution.
+  /// Average contribution of a flow's layers to B, if ln s is off by `offset` and scatters by
+  /// `variance` in addition to its windows' noise: the mean of psi_L over the normal distribution.
   static Ratio sums_of(std::size_t flow, double offset, double variance)
   {
     Ratio sums;
@@ -350,7 +350,7 @@ class RunsOfFlows {
 
   FlowDesign design_;
   Ar1 noise_;
-  std::vector<double> offset_, own_;  // of the last draw: of each flow and of each run
+  std::vector<double> offset_, own_;  // offsets of the last draw: of each flow, and of each run
 };
 
 }  // namespace grseg::synthetic

@@ -8,13 +8,13 @@
 
 namespace grseg {
 
-/// Grains and one frame, written by hand.
+/// Builds grains and one frame by hand.
 template <int D>
 struct PackingOf {
   Grains grains;
   Frame<D> frame;
 
-  /// Adds a grain of density 1 kg/m^2 or kg/m^3; its row.
+  /// Adds a grain of density 1 kg/m^2 or kg/m^3; returns its row.
   std::int32_t grain(Species species, double radius, const Vector<D>& position,
                      const Vector<D>& velocity = Vector<D>::Zero(), const Spin<D>& spin = no_spin())
   {
@@ -38,7 +38,7 @@ struct PackingOf {
     add(i, j, force, branch, branch.norm() - grains.radius[a] - grains.radius[b]);
   }
 
-  /// Adds a contact through the periodic boundary: `branch` from the image of j to i.
+  /// Adds a contact through the periodic boundary; `branch` points from the image of j to i.
   void image_contact(std::int32_t i, std::int32_t j, const Vector<D>& force,
                      const Vector<D>& branch)
   {
@@ -72,13 +72,13 @@ struct PackingOf {
 };
 using Packing = PackingOf<2>;
 
-/// The large grains' part of what Composition tells.
+/// Large grains' share of the contents that Composition returns.
 inline double phi_large(const std::vector<double>& contents)
 {
   return contents[1] / (contents[0] + contents[1]);
 }
 
-/// All components alike to round-off.
+/// True if all components are equal to round-off.
 template <class Numbers, class Others>
 bool same(const Eigen::MatrixBase<Numbers>& a, const Eigen::MatrixBase<Others>& b,
           double tolerance = 1e-14)

@@ -5,9 +5,10 @@
 
 namespace grseg {
 
-/// Sums of the neutral contact model: small grains of diameter 1, large ones of diameter r, contact
-/// ends in proportion to perimeter, or in three dimensions to surface, paired at random, 4 per small
-/// grain; all contacts touch and bear the normal force 1 in all directions alike.
+/// Sums of the neutral contact model (docs/glossary.md): small grains of diameter 1, large grains of
+/// diameter r. Contact ends are in proportion to perimeter, or in three dimensions to surface, and
+/// are paired at random, 4 per small grain. All contacts touch and have the normal force 1, in all
+/// directions equally.
 template <int D = 2>
 StructureSums<D> neutral_contacts(double phi_large, double r)
 {

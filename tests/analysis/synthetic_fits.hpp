@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// Points and tables whose fits are known, and the short words in which tests ask for them.
+/// Points and tables whose fits are known, and short names for what tests read from them.
 namespace grseg::synthetic {
 
 inline const std::vector<double> compositions{0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95};
@@ -29,13 +29,13 @@ inline std::vector<FitPoint> power_law(double k, double a)
   return points;
 }
 
-/// A number that looks random in [-1, 1] and is the same everywhere.
+/// A pseudo-random number in [-1, 1] that is the same on every machine.
 inline double scatter(std::size_t k)
 {
   return std::sin(12.9898 * static_cast<double>(k + 1));
 }
 
-/// 30 windows of 7 layers: neutral contacts whose mixed part scatters by `noise`.
+/// Rows of 30 windows of 7 layers: neutral contacts whose mixed part scatters by `noise`.
 inline std::vector<TableRow> neutral_rows(double noise, double r = 2, int windows = 30)
 {
   std::vector<TableRow> rows;
@@ -70,7 +70,7 @@ inline RuleFit fit(const FitData& data, const std::string& rule, const FitSettin
   return fit_rule(data, parse_rule(rule), settings, no_bootstrap(data));
 }
 
-/// What the Error says that reading `tables` ends with; "" where it ends well.
+/// Message of the Error thrown while `tables` are read; "" if there is none.
 template <class Error>
 std::string sentence_of(const std::vector<Table>& tables, const FitFilters& filters = {},
                         Quantity quantity = Quantity::contact)

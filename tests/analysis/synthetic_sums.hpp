@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-/// Sums of force (x) branch made by algebra instead of by a simulation.
+/// Sums of force (x) branch that are made by algebra instead of by a simulation.
 namespace grseg::synthetic {
 
-/// A stress of no symmetry, so that no component can stand for another.
+/// A stress without symmetry, all components of which differ, so that exchanged components are noticed.
 inline Tensor2 any_tensor()
 {
   Tensor2 tensor;
@@ -22,9 +22,9 @@ inline Tensor2 any_tensor()
   return tensor;
 }
 
-/// The neutral contact model: a share x_L = phi_L/(phi_L + r phi_S) of the contact ends belongs to
-/// large grains (perimeter), ends pair at random, and forces ignore type. A contact then
-/// carries stress in proportion to its branch: 2 r, 1 + r and 2 for LL, LS and SS.
+/// Sums of the neutral contact model: the share x_L = phi_L/(phi_L + r phi_S) of the contact ends
+/// belongs to large grains (perimeter), ends pair at random, and forces do not depend on type. A
+/// contact then carries stress in proportion to its branch: 2 r, 1 + r and 2 for LL, LS and SS.
 inline ContactSums<2> neutral_sums(double phi_large, double r, double solid = 0.8,
                                    double volume = 2)
 {
@@ -41,7 +41,7 @@ inline ContactSums<2> neutral_sums(double phi_large, double r, double solid = 0.
   return sums;
 }
 
-/// Two species whose stresses are what they are, without any mixed contact.
+/// Sums of two species with the given stresses and without mixed contacts.
 inline ContactSums<2> separate_sums(double phi_large, const Tensor2& small, const Tensor2& large)
 {
   ContactSums<2> sums;
@@ -53,8 +53,8 @@ inline ContactSums<2> separate_sums(double phi_large, const Tensor2& small, cons
   return sums;
 }
 
-/// Those of window number `window`, with a stress along x of its own, which no fit of yy reads: else
-/// equal windows would look as if nothing had moved.
+/// The sums plus a stress along x that depends on the window's number and that no fit of yy reads.
+/// Without it, equal windows would look like a bed that has not moved.
 inline ContactSums<2> moved(ContactSums<2> sums, int window)
 {
   sums.of(OwnSum::inside, 0)(0, 0) += 0.01 * window;
@@ -64,11 +64,11 @@ inline ContactSums<2> moved(ContactSums<2> sums, int window)
 struct TableRow {
   double begin, end, frames;
   ContactSums<2> sums;
-  // m; NaN: the next layer of 0.02 m in its window
+  // Bottom and top, m; NaN: the next layer of 0.02 m in its window.
   double bottom = std::numeric_limits<double>::quiet_NaN(), top = bottom;
 };
 
-/// As grseg-stress --partition power:2 would write it.
+/// Table as grseg-stress --partition power:2 writes it.
 inline Table stress_table(const std::vector<TableRow>& rows, double small_diameter = 0.005,
                           double large_diameter = 0.01)
 {
@@ -82,7 +82,7 @@ inline Table stress_table(const std::vector<TableRow>& rows, double small_diamet
   std::vector<std::string> names{"area_S[m^2]", "area_L[m^2]"};
   for (const auto& name : sum_column_names(two_sizes(1, 2), kind)) names.push_back(name);
   table.columns = with_key_columns(2, names);
-  std::map<double, int> layers;  // of each window
+  std::map<double, int> layers;  // number of layers of each window so far
   for (const auto& row : rows) {
     const auto& sums = row.sums;
     const double next = 0.02 * layers[row.begin]++;

@@ -9,13 +9,13 @@
 #include <cmath>
 #include <functional>
 
-/// Error of the velocity change against the number of sweeps from a cold start, on one step's
-/// contacts of the chute: plain sweeps, over-relaxed ones, and Nesterov's extrapolation of the
+/// Error of the velocity change over the number of sweeps from a cold start, for the contacts of
+/// one step of the chute: plain sweeps, over-relaxed sweeps, and Nesterov's extrapolation of the
 /// impulses with restart. Over-relaxation by omega is a sweep with omega times the effective mass.
 namespace grseg {
 namespace {
 
-/// Impulses and velocities, linear in one another.
+/// Impulses and velocities, which depend linearly on each other.
 struct State {
   std::vector<ContactBlock> blocks;
   std::vector<std::uint32_t> ends;
@@ -38,8 +38,8 @@ void sweep(State& s)
   choose_sweep({})({s.blocks, s.ends}, s.motion.data(), FrozenProblem::friction);
 }
 
-/// Distance of velocities, square root of twice the kinetic energy (a disc's I omega^2 is
-/// m rim_speed^2 / 2).
+/// Distance of two sets of velocities: the square root of twice the kinetic energy of their
+/// difference (a disc's I omega^2 is m rim_speed^2 / 2).
 double distance(const std::vector<Motion>& a, const std::vector<Motion>& b)
 {
   double sum = 0;
@@ -51,7 +51,7 @@ double distance(const std::vector<Motion>& a, const std::vector<Motion>& b)
   return std::sqrt(sum);
 }
 
-/// to + factor (to - from), impulses and velocities alike.
+/// Returns to + factor (to - from), for impulses and velocities.
 State extrapolate(const State& from, const State& to, double factor)
 {
   State result = to;
@@ -71,8 +71,8 @@ State extrapolate(const State& from, const State& to, double factor)
   return result;
 }
 
-/// Whether the last step went against what the sweep from `start` asked for: (start - now) and
-/// (now - before), impulses over effective masses.
+/// True if the last step went against the change that the sweep from `start` asked for: compares
+/// (start - now) and (now - before), impulses over effective masses.
 bool turned_back(const State& start, const State& now, const State& before)
 {
   double product = 0;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-/// How often intervals of 95 % hold the truth, on windows of known correlation: the tables of
-/// docs/studies/uncertainty.md.
+/// Coverage of 95 % intervals, i.e. how often they contain the truth, on windows of known
+/// correlation: the tables of docs/studies/uncertainty.md.
 namespace grseg {
 namespace {
 
@@ -20,7 +20,7 @@ using namespace synthetic;
 constexpr int trials = 1000;
 constexpr std::size_t samples = 1000, flow_samples = 300;
 
-/// Shares of the trials, and the half-width in units of what 95 % of the estimates stay within.
+/// Coverage over the trials, and the half-width in units of the range that contains 95 % of the estimates.
 class Tally {
  public:
   explicit Tally(double truth) : truth_(truth) {}
@@ -97,7 +97,8 @@ void print_one_run(double rho, std::size_t windows)
   std::fflush(stdout);
 }
 
-/// Runs of 30 windows, rho = 1/2; their scatter in units of the standard error of one run's mean.
+/// Prints coverage for runs of 30 windows, rho = 1/2; `scatter` is the scatter of runs in standard
+/// errors of one run's mean.
 void print_runs(std::size_t runs, double scatter)
 {
   constexpr std::size_t windows = 30;
@@ -120,7 +121,7 @@ void print_runs(std::size_t runs, double scatter)
   std::fflush(stdout);
 }
 
-/// Compositions that drift, a B that depends on them.
+/// Prints coverage for drifting compositions, with a B that depends on composition.
 void print_drift(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
@@ -140,8 +141,8 @@ void print_drift(double rho, std::size_t windows)
   std::fflush(stdout);
 }
 
-/// How often a steady series seems to have a start, and one whose first tenth is off by `start` standard
-/// deviations of a window does.
+/// Prints how often a start is found in a steady series, and in a series whose first tenth is off by
+/// `start` standard deviations of a window.
 void print_starts()
 {
   fmt::print(
@@ -173,7 +174,7 @@ void print_starts()
   std::fflush(stdout);
 }
 
-/// Of one population.
+/// Coverage tally for one population (runs, windows, flows).
 struct PopulationTally {
   Population over;
   Tally b{0};
@@ -283,7 +284,7 @@ void print_all()
 }  // namespace
 }  // namespace grseg
 
-/// "flows" or "starts": only this table.
+/// Arguments "flows" or "starts": prints only this table.
 int main(int argc, char** argv)
 {
   const std::string only = argc < 2 ? "" : argv[1];

@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
-/// What the parts of contact detection cost in the paper's chute and in beds a hundred times as
-/// wide, beside a whole step: a step asks whether the list is complete, finds contacts, forgets and
-/// keeps impulses once, and renews the list `renewals` times on average.
+/// Cost of the parts of contact detection in Staron & Phillips' chute and in beds a hundred times
+/// as wide, compared with a whole step. A step checks whether the list is complete, finds contacts,
+/// drops and transfers impulses once, and renews the list `renewals` times on average.
 namespace grseg {
 namespace {
 
@@ -42,7 +42,7 @@ struct Instant {
     rule.periodic = world.box.periodic_x;
   }
 
-  /// Moves the grains to where those of `simulation` are, from whichever period.
+  /// Moves the grains to their positions in `simulation`, from any period.
   void put(const Simulation& simulation)
   {
     const double length = world.box.length_x;
@@ -70,7 +70,7 @@ struct Instant {
   World world;
   GrainState state;
   PairList list;
-  std::vector<Vec2> ahead;  // m, where it is looked for contacts
+  std::vector<Vec2> ahead;  // positions at which contacts are searched, m
   DetectionRule rule;
 };
 
@@ -98,7 +98,8 @@ void complete(benchmark::State& state, int copies)
   if (!complete) state.SkipWithError("the list is not complete");
 }
 
-/// From one instant to another, as far apart as two lists are in the flow, and back.
+/// Goes from one instant to another and back; they are as far apart as two renewals of the list in
+/// the flow.
 void renew(benchmark::State& state, int copies)
 {
   auto simulation = bed(copies);

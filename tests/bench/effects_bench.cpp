@@ -12,10 +12,10 @@
 #include <filesystem>
 #include <functional>
 
-/// What it gains to leave out an effect that a chute does not call for. Two runs from one state
-/// take the same steps to the same bytes, in turn: `with` in kernels that see to the effect, at its
-/// neutral coefficient, `without` in those that leave it out (tests/sim/solver/effects_test.cpp). Times
-/// are processor time per step, s; `gain` is with / without.
+/// Time saved by leaving out an effect that a chute does not need. Two runs from one state take the
+/// same steps to the same bytes, in turn: `with` in kernels that compute the effect, at its neutral
+/// coefficient, `without` in kernels that leave it out (tests/sim/solver/effects_test.cpp). Times are
+/// processor time per step, s; `gain` is with / without.
 namespace grseg {
 namespace {
 
@@ -23,7 +23,7 @@ constexpr int turns = 100, steps_per_turn = 10;
 
 using Change = void (*)(World&);
 
-/// The developed chute, without spin, under the conditions that `changes` make.
+/// The developed chute, without spin, with the conditions changed by `changes`.
 Simulation chute(const std::vector<Change>& changes)
 {
   const auto one = flow("standard");
@@ -116,9 +116,9 @@ void frames_in_a_file(benchmark::State& state)
   std::filesystem::remove(path);
 }
 
-/// A scene in kernels that see to all that the simulator knows, bodies that move among it (here
-/// they stand), against its own. Where there is no gravity a faint one would not give the same
-/// bytes (tests/sim/solver/effects_test.cpp), so that this is left out of both.
+/// A scene in kernels that compute every effect, including moving boundary bodies (here they are at
+/// rest), compared with its own kernels. In a scene without gravity, a faint gravity would not give
+/// the same bytes (tests/sim/solver/effects_test.cpp), so both leave out gravity.
 void whole_scene(benchmark::State& state, const std::string& name, double time)
 {
   const auto start = scene_at(time, name);
@@ -160,7 +160,7 @@ void add_all()
   const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };
 
   add("friction", leave_out, Changes{smooth, general}, Changes{smooth});
-  // Where there is no friction nothing spins.
+  // Without friction nothing spins.
   add("rotation", leave_out, Changes{smooth, general}, Changes{smooth, general, unturned});
   add("friction_and_rotation", leave_out, Changes{smooth, general}, Changes{smooth, unturned});
   add("restitution", leave_out, Changes{inelastic, general}, Changes{inelastic});
@@ -170,7 +170,7 @@ void add_all()
       Changes{smooth, inelastic, between_walls, unturned});
   add("frames", frames);
   add("frames_in_a_file", frames_in_a_file);
-  // Each while it does what it is known for.
+  // Each scene is measured in its typical state.
   for (const auto& [name, time] : {std::pair{"chute", 2.0},
                                    {"intruder", 2.0},
                                    {"drum", 2.0},

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-/// Scenes in motion, for measurements, deposited when first asked for; the paper's chute in
-/// developed flow, after two seconds.
+/// Scenes in motion, for measurements; each is deposited when first requested. The chute of Staron
+/// & Phillips is in developed flow, after two seconds.
 namespace grseg {
 
-/// The scene of sim/scenes that is called `name`.
+/// Scene in sim/scenes with the name `name`.
 inline Scene scene_called(const std::string& name, const std::string& accuracy = "standard")
 {
   namespace po = boost::program_options;
@@ -24,7 +24,7 @@ inline Scene scene_called(const std::string& name, const std::string& accuracy =
   return resolve_scene(GRSEG_SCENES "/" + name + ".ini", values);
 }
 
-/// A scene `time` seconds after its begin; copied by whoever changes it.
+/// A scene `time` seconds after its begin. Callers that change it make a copy.
 inline const Simulation& scene_at(double time, const std::string& name,
                                   const std::string& accuracy = "standard")
 {
@@ -37,14 +37,14 @@ inline const Simulation& scene_at(double time, const std::string& name,
   return made.emplace(key, simulation).first->second;
 }
 
-/// The chute in flow.
+/// The chute in developed flow.
 inline const Simulation& flow(const std::string& accuracy)
 {
   return scene_at(2, "chute", accuracy);
 }
 
-/// The grains of `one`, `copies` times side by side, as they move, without the impulses of their
-/// contacts, under the conditions of `world`; its grains and its period are set here.
+/// `copies` copies of the grains of `one` side by side, in motion, without the impulses of their
+/// contacts, with the conditions of `world`; this function sets the grains and period of `world`.
 inline Simulation side_by_side(const Simulation& one, World world, int copies)
 {
   const auto& grains = one.world().grains;

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""How fast a page of grseg-explore is in Chromium, without a graphics card and without a screen.
+"""Measures the speed of a page of grseg-explore in Chromium, without a graphics card and without a screen.
 
     tests/bench/page_speed.py explore.html [--size 1280x900]
 
-Prints a Markdown table: first paint and until all is drawn, from the start of loading; frames a second while the player
-draws every frame that the browser asks for (it asks for 60 a second); milliseconds from a move of the slider until the
-program has drawn all that it changes, and until the browser shows it. Needs chromium-driver and python3-selenium.
+Prints a Markdown table: times from the start of loading to the first paint and to the complete page; frames per second
+while the player draws every frame that the browser requests (60 per second); milliseconds from a move of the slider until
+the page has drawn all changes, and until the browser shows them. Needs chromium-driver and python3-selenium.
 """
 import argparse
 import os

@@ -7,12 +7,12 @@
 
 #include <fstream>
 
-/// What a step of the paper's chute costs and, in wide beds, what of it a new list does, and the
-/// memory it takes. Wide beds are copies of the chute side by side.
+/// Cost of a step of Staron & Phillips' chute and, in wide beds, the part of it that a new list
+/// takes, and the memory. Wide beds are copies of the chute side by side.
 namespace grseg {
 namespace {
 
-/// An entry of /proc/self/status, in bytes.
+/// Value of an entry of /proc/self/status, bytes.
 double memory(const std::string& entry)
 {
   std::ifstream status("/proc/self/status");
@@ -23,15 +23,15 @@ double memory(const std::string& entry)
   return 1024 * kilobytes;
 }
 
-/// The memory taken since this was made, while the process has most of it.
+/// Memory used since this object was made, at the process's peak.
 class PeakMemory {
  public:
   PeakMemory()
   {
-    malloc_trim(0);  // what others have freed must not be taken again unseen
+    malloc_trim(0);  // so that memory freed before is not reused unnoticed
     before_ = memory("VmRSS:");
   }
-  /// Whatever peak there was so far does not count.
+  /// Resets the peak, so that earlier peaks do not count.
   static void reset() { std::ofstream("/proc/self/clear_refs") << 5; }
   double bytes() const { return memory("VmHWM:") - before_; }
 
@@ -53,7 +53,7 @@ void step(benchmark::State& state, const std::string& accuracy, int copies, int 
   const PeakMemory memory;
   auto simulation = bed(accuracy, copies, threads);
   PeakMemory::reset();
-  // The second list is the first that has an old one beside it; memory is all there after it.
+  // The second list is the first one that exists beside an old list; after it all memory is allocated.
   for (int warm = 0; warm < 20 || simulation.pair_list_renewals() < 3; ++warm) simulation.advance();
   const auto renewals = simulation.pair_list_renewals();
   double sweeps = 0, contacts = 0;

@@ -7,12 +7,12 @@
 
 #include <benchmark/benchmark.h>
 
-/// Contact updates per second on one step's contacts of the chute, per instruction set, and what a
-/// step's colouring, packing and warm start cost beside them.
+/// Contact updates per second on the contacts of one step of the chute, by instruction set, and the
+/// additional cost of a step's colouring, packing and warm start.
 namespace grseg {
 namespace {
 
-/// The frozen problem, with the entry that lanes left over act on.
+/// The frozen problem, with the additional entry on which unused lanes act.
 FrozenProblem problem()
 {
   static const auto read = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
@@ -53,7 +53,7 @@ void single_sweep(benchmark::State& state, const std::string& instructions)
   count_contacts(state, p);
 }
 
-/// From double to single precision and back, with the first guesses applied.
+/// Conversion from double to single precision and back, with the first guesses applied.
 void take_and_give_back(benchmark::State& state)
 {
   use_instruction_set("");

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Whether every number with an interval in docs/studies/depends.md stands, digit by digit, in a section that its line links (of the
-text, its paragraph), where it was measured. Usage: depends_test.py SOURCE [PAGE]"""
+"""Checks that every number with an interval in docs/studies/depends.md also occurs, digit by digit, where it was measured: in a section
+to which its line (in running text, its paragraph) links. Usage: depends_test.py SOURCE [PAGE]"""
 import pathlib
 import re
 import sys
@@ -13,7 +13,7 @@ ROWS = 15
 
 
 def section(page, anchor):
-    """The text under a heading, up to the next that is not below it."""
+    """Text under a heading, up to the next heading of the same or a higher level."""
     lines, level = [], None
     for line in page.read_text().splitlines():
         head = re.match(r"(#+)\s+(.*)", line)

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Whether the way back works: each numbered equation of the paper in docs/equations.md is named ("eq. 3",
-"eqs. 3 and 4") in a source that its row links, or in the header beside it. Usage: equations_test.py SOURCE"""
+"""Checks references from sources to equations: each numbered equation of Staron & Phillips in docs/equations.md is named ("eq. 3",
+"eqs. 3 and 4") in a source that its row links, or in the header beside that source. Usage: equations_test.py SOURCE"""
 import pathlib
 import re
 import sys
 
 
 def numbers_named(text):
-    """All n of "eq. n", "eqs. n, m and k", "eq. (n)"."""
+    """All numbers n in "eq. n", "eqs. n, m and k", "eq. (n)"."""
     found = set()
     for words in re.findall(r"\beqs?\.\s*((?:\(?\d+\)?(?:,\s*|\s+and\s+|\s+to\s+)?)+)", text):
         found |= {int(n) for n in re.findall(r"\d+", words)}
@@ -26,7 +26,7 @@ def main():
         for link in re.findall(r"\]\(([^)#]+\.(?:cpp|hpp))\)", line):
             file = (page.parent / link).resolve()
             for path in {file, file.with_suffix(".hpp")}:
-                if path.exists():  # comments are broken into lines
+                if path.exists():  # a comment may be broken into lines
                     named |= numbers_named(re.sub(r"\s*\n\s*//+\s*", " ", path.read_text()))
         missing += [n for n in map(int, re.findall(r"\d+", row[1])) if n not in named]
     print("\n".join([f"eq. {n}: no linked source names it" for n in missing] + [f"{rows} rows, {len(missing)} missing"]))

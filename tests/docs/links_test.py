@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Whether what documents point at is there. Usage: links_test.py SOURCE [PAGE ...]
+"""Checks that targets of links and names in documents exist. Usage: links_test.py SOURCE [PAGE ...]
 
-Of README.md, docs/, and the READMEs of formats/, data/, scripts/ and tests/, or of PAGEs:
-    links        relative ones lead to a file or folder, their #anchors to a heading of it
-    `paths`      in backticks or in code that begin with a folder of the repository exist
-    `names.hpp`  of sources are those of a file somewhere in the repository
-    `names()`    beside a link to a source stand in that source (or one of those linked in the line)
+In README.md, docs/, and the READMEs of formats/, data/, scripts/ and tests/, or in the given PAGEs:
+    links        relative links lead to a file or folder, their #anchors to a heading of it
+    `paths`      in backticks or in code exist if they begin with a folder of the repository
+    `names.hpp`  of sources are names of a file somewhere in the repository
+    `names()`    beside a link to a source occur in that source (or in another source linked in the line)
 """
 import pathlib
 import re
@@ -28,14 +28,14 @@ def pages_of(root):
 
 
 def slug(heading):
-    """The anchor that GitHub gives a heading."""
+    """Anchor that GitHub makes for a heading."""
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").replace("*", "")
     text = re.sub(r"[^\w\- ]", "", text.strip().lower())
     return text.replace(" ", "-")
 
 
 def outside_fences(text):
-    """Lines, and whether they are code."""
+    """Lines, each with True if it is code."""
     fenced = False
     for number, line in enumerate(text.splitlines(), 1):
         if line.lstrip().startswith("```"):
@@ -59,7 +59,7 @@ def anchors(path):
 
 
 def broken_link(page, target):
-    """What is wrong with the target of a link, and the file that it leads to."""
+    """Error in the target of a link, and the file to which the link leads."""
     if re.match(r"[a-z]+:", target):
         return None, None
     name, _, anchor = target.partition("#")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs the ```python blocks of a page, one after the other, in an empty folder that looks like a clone after
-scripts/build and the page's own commands. Usage: python_test.py SOURCE BUILD PAGE BLOCKS    (BLOCKS at least)
+"""Runs the ```python blocks of a page, one after the other, in a temporary folder that looks like a clone after
+scripts/build and the page's own commands. Usage: python_test.py SOURCE BUILD PAGE BLOCKS    (BLOCKS: smallest number)
 """
 import os
 import re

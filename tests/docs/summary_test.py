@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The summary that a page quotes is what the program prints: runs the page's first command, and compares its words
-with the block behind "The first command above prints:", but for the seconds that it took.
+"""The summary that a page quotes equals the program's output: runs the page's first command, and compares its output
+with the block after "The first command above prints:", except for the elapsed seconds.
 
 Usage: summary_test.py SOURCE BUILD
 """

@@ -14,7 +14,7 @@ IN_DOCUMENTS = re.compile(rf"\b({UNCLEAR})\b", re.IGNORECASE)
 
 
 def comments(text):
-    """Comments with their first lines; lines of comment that follow each other are one."""
+    """Comments with the numbers of their first lines; consecutive comment lines are one comment."""
     block, first = [], 0
     for number, line in enumerate(text.split("\n"), 1):
         whole = re.match(r"\s*(///?|/\*\*?|\*(?!/))(?!\s*SPDX)\s?(.*)", line)
@@ -40,7 +40,7 @@ def findings_in_comments(source):
 
 
 def documents(source):
-    """Every page with its text; builds and runs have none."""
+    """Every page with its text, except in builds and runs."""
     for path in [source / "README.md", *(p for room in ("docs", "formats", "scripts", "tests", "data") for p in sorted((source / room).rglob("*.md")))]:
         yield str(path.relative_to(source)), path.read_text(encoding="utf-8")
 

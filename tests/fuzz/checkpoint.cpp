@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A checkpoint, up to the simulation that continues from it.
+// Reads a checkpoint and continues the simulation from it.
 #include "sim/run/restart.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

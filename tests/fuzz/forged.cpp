@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A checkpoint with other numbers and the digest of these, up to the simulation that continues from
-// it. Eleven bytes of an input are one change: what, where (2), the value (8).
+// Reads a checkpoint with changed numbers and a matching digest, and continues the simulation from it.
+// Eleven bytes of an input are one change: which number, its position (2 bytes), the value (8 bytes).
 #include "sim/run/restart.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
@@ -14,7 +14,7 @@ using namespace grseg;
 
 constexpr std::size_t change_size = 11;
 
-/// A sound one, as scripts/fuzz leaves it beside the programs.
+/// An undamaged checkpoint, which scripts/fuzz writes beside the programs.
 const Checkpoint& sound_checkpoint()
 {
   static const Checkpoint sound =

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-/// What fuzz targets share. A target reads bytes as a tool would: they are accepted, or refused with
-/// a ToolError. Anything else (another exception, a sanitizer's report, a broken promise, more than
-/// the limits of time and memory) is a finding.
+/// Functions that fuzz targets share. A target reads bytes as a tool would: they are accepted, or
+/// refused with a ToolError. Anything else is a finding: another exception, a sanitizer's report, a
+/// violated condition, too much time or memory.
 namespace grseg::fuzz {
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size)
@@ -19,7 +19,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size)
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Calls `read`, which may refuse.
+/// Calls `read`, which may throw a ToolError.
 template <class Read>
 void try_to(const Read& read)
 {
@@ -29,10 +29,10 @@ void try_to(const Read& read)
   }
 }
 
-/// Ends the process, as a finding, unless a promise holds.
+/// Ends the process, as a finding, unless the condition `holds` is true.
 void require(bool holds, const char* promise);
 
-/// One input that stands for several files: what lies between lines "=====".
+/// Parts of one input that represents several files; lines "=====" separate the parts.
 std::vector<std::string_view> parts_of(std::string_view text);
 
 /// A file in memory that is written again for each input.

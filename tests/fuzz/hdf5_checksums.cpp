@@ -46,7 +46,7 @@ struct Lookup3 {
   }
 };
 
-/// H5_checksum_lookup3, on a machine of little endian.
+/// H5_checksum_lookup3 of HDF5, on a little-endian machine.
 std::uint32_t checksum_of(std::string_view bytes)
 {
   const auto start = 0xdeadbeefU + static_cast<std::uint32_t>(bytes.size());
@@ -67,7 +67,7 @@ std::uint32_t checksum_of(std::string_view bytes)
   return state.c;
 }
 
-/// A part whose checksum stands behind it.
+/// A structure whose checksum follows it.
 std::optional<ChecksummedPart> part_at(std::string_view file, std::size_t begin)
 {
   const auto last = std::min(file.size() - checksum_size, begin + longest);
@@ -77,7 +77,7 @@ std::optional<ChecksummedPart> part_at(std::string_view file, std::size_t begin)
   return {};
 }
 
-/// A block of a heap, whose checksum stands inside it.
+/// A block of a heap, whose checksum is inside it.
 std::optional<ChecksummedPart> heap_block_at(std::string_view file, std::size_t begin)
 {
   for (std::size_t size = 512; size <= longest && begin + size <= file.size(); size *= 2)

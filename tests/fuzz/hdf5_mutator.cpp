@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The mutator of targets that read HDF5: it changes numbers inside the library's own structures more
-// often than elsewhere, and then repairs their checksums. It learns where these stand from the seeds.
+// Mutator for targets that read HDF5: it changes numbers inside the library's own structures more often
+// than elsewhere, and then repairs their checksums. It learns from the seeds where these structures are.
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/fuzz/hdf5_checksums.hpp"
 
@@ -17,12 +17,12 @@ namespace {
 
 using namespace grseg::fuzz;
 
-/// Where the structures of one seed stand.
+/// Positions of the structures of one seed.
 struct Layout {
   std::string file;
   std::vector<ChecksummedPart> parts;
 
-  /// The parts whose signature is where it was.
+  /// The parts whose signature is still at its position.
   std::vector<ChecksummedPart> in_place(const std::uint8_t* data, std::size_t size) const
   {
     std::vector<ChecksummedPart> found;
@@ -44,7 +44,7 @@ std::vector<ChecksummedPart> parts_in(const std::uint8_t* data, std::size_t size
   return best;
 }
 
-/// Writes a number that sizes and addresses are often wrong with.
+/// Writes a number that is often wrong as a size or address.
 void overwrite(std::uint8_t* data, std::size_t begin, std::size_t end, std::minstd_rand& chance)
 {
   constexpr std::int64_t telling[] = {
@@ -70,7 +70,8 @@ void overwrite(std::uint8_t* data, std::size_t begin, std::size_t end, std::mins
   std::memcpy(data + at, &value, width);
 }
 
-/// One of the parts; seldom one of a heap or a tree, with which the library itself soon crashes.
+/// Chooses one of the parts, rarely one of a heap or a tree, because the library itself soon
+/// crashes with these.
 const ChecksummedPart& choose(const std::vector<ChecksummedPart>& parts, const std::uint8_t* data,
                               std::minstd_rand& chance)
 {
@@ -84,7 +85,7 @@ const ChecksummedPart& choose(const std::vector<ChecksummedPart>& parts, const s
 
 }  // namespace
 
-/// Folders on the command line that are called seeds hold sound files.
+/// Reads the undamaged files from the folders on the command line whose name says that they are seeds.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
   namespace fs = std::filesystem;

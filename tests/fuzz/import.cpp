@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An archive of another program, moment by moment, up to what would be written. The parts of an
+// Imports an archive of another program frame by frame, without writing a file. The parts of an
 // input: words of the command line, grains, contacts, restart file.
 #include "formats/core/frame.hpp"
 #include "formats/import/convert/verified_frames.hpp"
@@ -40,7 +40,7 @@ void require_a_whole_frame(const Frame<3>& frame, const Grains& grains)
   }
 }
 
-/// The same without parsing again what most inputs have in common.
+/// Settings of the import, from a cache, because most inputs have the same words.
 const ImportSettings& known_settings(std::string_view words)
 {
   static std::map<std::string, ImportSettings, std::less<>> known;

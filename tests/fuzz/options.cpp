@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of options that have a grammar of their own. The first letter of an input says which.
+// Parses values of options that have a grammar of their own. The first letter of an input selects
+// the option.
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/stress/partition_rule.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A trajectory file: opened and read whole, as grseg-check --deep does. Half of the inputs are read
-// without comparing digests, which no mutation survives.
+// Opens a trajectory file and reads it completely, as grseg-check --deep does. Half of the inputs
+// are read without checking digests, since no mutation passes this check.
 #include "formats/core/frame.hpp"
 #include "formats/trajectory/layout_check.hpp"
 #include "formats/trajectory/reader.hpp"

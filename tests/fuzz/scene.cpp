@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scene files.
+// Reads scene files.
 #include "sim/scene/keys/keys.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables, as grseg-fit, grseg-merge and grseg-derive read them. The parts of an
-// input are tables, with the last line that they should have.
+// Reads tables as grseg-fit, grseg-merge and grseg-derive do. The parts of an input are tables,
+// each with the last line that it should have.
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/micro/sums_table.hpp"
 #include "analysis/stress/merge_tables.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace grseg;
 
-/// The table with a line at its end that agrees with it.
+/// The table plus a correct last line.
 std::string ended(std::string_view part)
 {
   std::string text(part.substr(0, part.find(end_mark)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A text file of an archive, plain or compressed: its lines, words and numbers.
+// Reads a text file of an archive, plain or compressed: its lines, words and numbers.
 #include "formats/core/text.hpp"
 
 #include "formats/import/common/text_source.hpp"

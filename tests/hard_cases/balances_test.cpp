@@ -8,14 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
-/// What a step may not change, or must account for: energy, momentum, angular momentum.
+/// Quantities that a step must conserve or account for: energy, momentum, angular momentum.
 namespace grseg::hard_cases {
 namespace {
 
-/// The exact balance of a step of the mid-point scheme: gravity and the impulse of each contact
-/// work along the mean of the velocities on both sides of the step.
+/// Exact energy balance of a step of the mid-point scheme: the work of gravity and of contact
+/// impulses is computed with the mean of the velocities before and after the step.
 struct EnergyBalance {
-  double before = 0, after = 0;  // J, kinetic energy
+  double before = 0, after = 0;  // kinetic energy, J
   double gravity_work = 0;       // J
   double contact_work = 0;       // J
 
@@ -63,10 +63,10 @@ TEST(Energy, EveryStepOfAFlowAccountsForItsEnergyToRoundOff)
 
 TEST(Energy, ContactsOfAnInelasticFlowGiveNoEnergy)
 {
-  // Not a law of physics: Newton's restitution may add energy in simultaneous impacts
+  // This is not a law of physics: Newton's restitution may add energy in simultaneous impacts
   // (impacts_test.cpp), and at e = 1 a step of this flow gains 0.3 %. At e <= 1/2 friction and
-  // impacts always take more. A disc that is stopped while it rises at less than g h is given
-  // m (g h)^2/8 at most, which gravity takes in the same step.
+  // impacts always dissipate more. A disc that is stopped while it rises at less than g h gains at
+  // most m (g h)^2/8, which gravity removes in the same step.
   Case gains("H39", "largest work of contacts in a step at e ≤ 0.5, of m (g h)²/8");
   for (const double e : {0.25, 0.5}) {
     auto c = flow(8, 10, 0.5);
@@ -88,8 +88,8 @@ TEST(Energy, ContactsOfAnInelasticFlowGiveNoEnergy)
 }
 
 struct Momenta {
-  Vec2 linear = Vec2::Zero();  // kg m/s
-  double angular = 0;          // kg m^2/s, about the origin
+  Vec2 linear = Vec2::Zero();  // linear momentum, kg m/s
+  double angular = 0;          // angular momentum about the origin, kg m^2/s
 
   explicit Momenta(const Simulation& s)
   {
@@ -103,10 +103,10 @@ struct Momenta {
   }
 };
 
-/// A crowd that collapses to the middle of its first place, for 1000 steps.
+/// A crowd of discs that collapses towards the middle of its initial lattice, for 1000 steps.
 struct Collapse {
   Momenta start, end;
-  double scale = 0;  // kg m/s, of the momenta that add up
+  double scale = 0;  // scale of the momenta that are summed, kg m/s
   double impulses = 0;
 
   static Simulation begin(bool periodic)
@@ -141,12 +141,12 @@ TEST(Momentum, ImpactsInAPeriodicGasConserveIt)
 
 TEST(Momentum, RoughImpactsInAnOpenCloudAlsoConserveAngularMomentum)
 {
-  // Lever arms add up to the distance of the centres, overlapping or not.
+  // Lever arms add up to the distance of the centres, whether discs overlap or not.
   const Collapse cloud(false);
   EXPECT_GT(cloud.impulses, 500);
   Case("H25", "momentum of an open cloud, change over Σm|v|")
       .at_most((cloud.end.linear - cloud.start.linear).norm() / cloud.scale, 1e-14);
-  const double lever = 5;  // m, from the origin
+  const double lever = 5;  // distance from the origin, m
   Case("H25", "angular momentum of an open cloud, change over 5 m Σm|v|")
       .at_most(std::abs(cloud.end.angular - cloud.start.angular) / (cloud.scale * lever), 1e-14);
 }

@@ -15,7 +15,7 @@
 #include <numbers>
 #include <numeric>
 
-/// Beds that rest, flow, stop or jam: statistical cases.
+/// Beds that rest, flow, stop or jam; the cases are statistical.
 namespace grseg::hard_cases {
 namespace {
 
@@ -59,7 +59,7 @@ void run(Simulation& simulation, std::int64_t steps)
   for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
 }
 
-/// Weight of the grains whose centres lie above y, and what contacts carry across y.
+/// Weight of the grains whose centres lie above y, and force that contacts carry across y.
 struct Cut {
   double weight = 0, carried = 0;  // N
 
@@ -114,10 +114,10 @@ struct Line {
 
 TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
 {
-  // Momentum of what is above a level: force of the contacts across it, flux of grains through it
-  // and weight. Followed exactly, it needs no volume: the mean force on the base is M (g - a).
-  // Bagnold: du/dy ~ sqrt(p/rho) since the inertial number is uniform; u(y) = u_H (1 - (1 -
-  // y/H)^(3/2)) but for the layers next to the base and to the surface.
+  // The momentum above a level changes by contact forces across it, by the flux of grains through
+  // it, and by weight. This is followed exactly and needs no volume: the mean force on the base is
+  // M (g - a). Bagnold: du/dy ~ sqrt(p/rho), since the inertial number is uniform; u(y) = u_H (1 -
+  // (1 - y/H)^(3/2)), except in the layers next to the base and to the surface.
   const auto scene = small_chute::paper_scene(
       {"--depth", "30dS", "--length", "20dS", "--phi-large", "0", "--slope", "22"});
   auto flow = small_chute::bed(scene);
@@ -159,9 +159,9 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
     u.push_back(sum[bin] / count[bin]);
   }
   const Line bagnold(x, u);
-  // A viscous fluid has the exponent 2 in place of 3/2, a uniform shear rate 1. The bound is half of
-  // what the nearer of these misses its best fit of Bagnold's form by, 0.035/2. (It was 0.05, which
-  // a viscous profile passes. 0.0127 was known when this one was chosen.)
+  // A viscous fluid has the exponent 2 instead of 3/2, a uniform shear rate 1. The bound is half the
+  // deviation of the nearer of these from its best fit of Bagnold's form, 0.035/2. (It was 0.05,
+  // which a viscous profile passes. 0.0127 was known when this bound was chosen.)
   const auto worst_fit = [&x](const std::vector<double>& profile) {
     const Line line(x, profile);
     double worst = 0;
@@ -177,12 +177,11 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
   }
   Case("H33", "u(y) less its fit by Bagnold's profile, over u(H)")
       .at_most(worst_fit(u), std::min(worst_fit(viscous), worst_fit(uniform)) / 2);
-  // I = d (du/dy)/sqrt(p/rho) follows from the slope of the line and the pressure that the bed's own
-  // mass M makes on the length L, p = M g cos (1 - y/H)/L. tan(theta) = mu(I) = 0.25 + 1.1
-  // sqrt(pi/4) I (da Cruz et al. 2005, whose I has the mass of a disc where ours has rho d^2).
-  // Their discs have friction 0.4 and restitution 0.1, so that no theory gives the bound: it was
-  // chosen when 0.024 was known, and replaces 25 % of I about 1.1 I with a solid fraction of 0.8,
-  // which is 0.0385 here.
+  // I = d (du/dy)/sqrt(p/rho) follows from the slope of the line and from the pressure of the bed's
+  // own mass M on the length L, p = M g cos (1 - y/H)/L. tan(theta) = mu(I) = 0.25 + 1.1 sqrt(pi/4)
+  // I (da Cruz et al. 2005, whose I uses the mass of a disc, ours rho d^2). Their discs have
+  // friction 0.4 and restitution 0.1, so no theory gives the bound. It was chosen when 0.024 was
+  // known, and replaces 25 % of I about 1.1 I with a solid fraction of 0.8, which is 0.0385 here.
   const double pressure = mass * g * std::cos(slope) / flow.world().box.length_x;
   const double inertial = 1.5 * d / height * bagnold.slope / std::sqrt(pressure / scene.density);
   Case("H33", "tan 22° less da Cruz' μ(I) of the flow's inertial number")
@@ -191,7 +190,7 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
 
 TEST(StoppedBed, BelowReposeComesToRestAndDoesNotCreep)
 {
-  // The paper's bed flows steadily from 20 degrees on.
+  // Staron & Phillips' bed flows steadily from 20 degrees on.
   Case rest("H34", "kinetic energy over m g d per grain, 5° to 16°, standard"),
       stays("H34", "creep in 1e5 steps, d_S");
   for (const char* slope : {"5", "10", "16"}) {
@@ -213,9 +212,9 @@ TEST(StoppedBed, BelowReposeComesToRestAndDoesNotCreep)
 
 TEST(TiltedBed, RestsUntilItsSlopeIsThatOfReposeAndThenFlows)
 {
-  // By 2.5 degrees per second from level on. It must not flow where it would stop (H34), and flows
-  // at the latest where its grains, each in a hollow of the layer below, would roll out of it: at
-  // 30 degrees, for equal discs.
+  // The slope increases by 2.5 degrees per second, starting from level. The bed must not flow at
+  // slopes at which it would stop (H34). It flows at the latest when its grains, each in a hollow
+  // of the layer below, would roll out of the hollow: at 30 degrees, for equal discs.
   const auto scene = small_chute::paper_scene(
       {"--depth", "15dS", "--length", "15dS", "--slope", "0", "--slope-rate", "2.5"});
   auto bed = small_chute::bed(scene);
@@ -236,7 +235,7 @@ TEST(JammedHopper, HoldsItsLoadForAHundredThousandSteps)
   run(hopper, 20000);
   const auto& world = hopper.world();
   const auto before = positions_in(hopper);
-  // What has left lies, or goes on rolling, on the floor that catches it.
+  // Grains that have left lie, or still roll, on the floor that catches them.
   const auto inside = [&](std::size_t k) {
     return !world.grains.fixed[k] && before[k].y() > -scene.small_diameter;
   };
@@ -269,8 +268,8 @@ TEST(JammedHopper, HoldsItsLoadForAHundredThousandSteps)
   }
 }
 
-/// Discs of diameter 1 +- 10 % poured into a box of this width between straight walls, in `rows`
-/// rows; the bottom is a row of fixed discs with a hole `outlet` wide in the middle, 0 for none.
+/// Discs of diameter 1 +- 10 %, poured in `rows` rows into a box of width `width` between straight walls.
+/// The bottom is a row of fixed discs with a hole of width `outlet` in the middle; 0: no hole.
 Simulation silo(double width, int rows, double outlet, double friction, unsigned long seed = 0)
 {
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random{gsl_rng_alloc(gsl_rng_mt19937),
@@ -297,7 +296,7 @@ Simulation silo(double width, int rows, double outlet, double friction, unsigned
   return {world, positions_of(discs)};
 }
 
-/// The same silo with these grains where they are now and another bottom.
+/// The same silo with its grains where they are now, and with another bottom.
 Simulation opened(const Simulation& closed, double width, double outlet)
 {
   auto world = closed.world();
@@ -310,7 +309,7 @@ Simulation opened(const Simulation& closed, double width, double outlet)
   return {world, positions_of(discs)};
 }
 
-/// Mean of several packings and its standard error.
+/// Mean over several packings, and its standard error.
 struct OverPackings {
   double mean, error;
 
@@ -324,19 +323,20 @@ struct OverPackings {
   }
 };
 
-/// Of a filling of this weight, both in N; `length` is Janssen's as the weight of such a filling.
+/// Janssen's load of the base under a filling of this weight, both in N. `length` is Janssen's
+/// length, given as the weight of such a filling.
 double janssen_load(double filling, double length)
 {
   return length * (1 - std::exp(-filling / length));
 }
 
-/// What the base, the walls and a level of a silo carry, N; in the mean while the base goes down
-/// so slowly that the filling stays in balance and slides along its walls.
+/// Forces that the base, the walls and a level of a silo carry, N. They are averaged while the base
+/// moves down so slowly that the filling stays in balance and slides along its walls.
 struct SlidingSilo {
   double weight, base = 0;
-  double walls_push = 0, walls_hold = 0;  // N/m, from one width above the base to six or the top
-  double level = 0;                       // mean between these heights
-  double balance = 0;  // the most that base and walls at rest carry wrongly, of the weight
+  double walls_push = 0, walls_hold = 0;  // N/m, in heights from one to six widths or the top
+  double level = 0;                       // load of a level, mean between these heights
+  double balance = 0;  // largest error of the balance of base and walls, over the weight
 
   SlidingSilo(double width, int rows, unsigned long seed)
   {
@@ -387,7 +387,7 @@ struct SlidingSilo {
     for (int k = 0; k < levels; ++k) {
       const double y = bottom + (top - bottom) * (k + 0.5) / levels;
       level += share * Cut(world, frame, y).carried / levels;
-      for (std::size_t c = 0; c < list.size(); ++c)  // Cut takes walls for what is below
+      for (std::size_t c = 0; c < list.size(); ++c)  // Cut counts walls as below
         if (list.j[c] < 0 && height(c) > y) level -= share * list.force[c].y() / levels;
     }
   }
@@ -396,21 +396,20 @@ struct SlidingSilo {
 
 TEST(Silo, WhoseFillingSlidesSaturatesAsJanssenSays)
 {
-  // Where walls hold the part 1/L of what a level carries, per height, the load of the base is
-  // w L (1 - exp(-H/L)) with the weight w per height. L comes from walls and levels of the high
-  // filling, so nothing is fitted. Without hold at the walls the base of the high filling would
-  // carry several times that. What pushes on the walls is K times what presses on a level, and
-  // the filling, which yields, is between Rankine's states: (1 - sin)/(1 + sin) <= K <= (1 +
-  // sin)/(1 - sin) of the angle of internal friction, the sine of which is 0.25 in slow shear (da Cruz
-  // et al. 2005; 0.253 of these discs, docs/studies/scenes.md).
-  // One packing's load scatters by a tenth, so that the mean of twelve is compared.
+  // If walls carry the part 1/L of a level's load, per height, the load of the base is w L (1 - exp(-H/L))
+  // with the weight w per height. L comes from walls and levels of the high filling, so nothing is fitted.
+  // Without friction at the walls, the base of the high filling would carry several times that. The
+  // pressure on the walls is K times the pressure on a level. The filling yields, so K is between Rankine's
+  // states, (1 - sin)/(1 + sin) <= K <= (1 + sin)/(1 - sin), with the angle of internal friction, whose
+  // sine is 0.25 in slow shear (da Cruz et al. 2005; 0.253 for these discs, docs/studies/scenes.md). The
+  // load of one packing scatters by a tenth, so means of twelve packings are compared.
   const double width = 10.3;
   Case total("H32", "load of walls and base at rest over the weight, difference from 1"),
       rankine("H32", "K, push on the walls over pressure on a level"),
       janssen("H32", "load of the base, filled 1, 3 and 9 widths high, over Janssen's"),
       known("H32", "standard error of that load over twelve packings");
   const double yield = (1 + 0.25) / (1 - 0.25);
-  std::vector<std::vector<double>> loads(3);  // by height
+  std::vector<std::vector<double>> loads(3);  // loads of packings, by height
   for (unsigned long seed = 0; seed < 12; ++seed) {
     std::vector<SlidingSilo> silos;
     for (const int rows : {10, 30, 90}) {
@@ -451,12 +450,12 @@ double discharge(const Simulation& closed, double width, double outlet)
 
 TEST(Hopper, FlowsByBeverloosLawThroughWideOutlets)
 {
-  // Q^(2/3) is a line in the outlet W, which vanishes at the empty margin k d, k between 1 and 2
-  // (Beverloo et al. 1961, Mankoc et al. 2007). Were Q as W or as W^2 such a line would vanish at
-  // -6.0 d or 3.0 d. The bed's bottom is open between discs of diameter 1/2, half a d more than
-  // what `outlet` asks for. The standard error is that of four packings; the law's prefactor has no
-  // agreed value in two dimensions. (k was between 0 and 2 of one packing, with W half a d too
-  // small and from 5 to 35 %.)
+  // Q^(2/3) is a linear function of the outlet W that vanishes at the empty margin k d, with k
+  // between 1 and 2 (Beverloo et al. 1961, Mankoc et al. 2007). If Q were proportional to W or to
+  // W^2, this line would vanish at -6.0 d or 3.0 d. The bed's bottom is open between discs of
+  // diameter 1/2, half a d more than the value of `outlet`. The standard error is that of four
+  // packings; the law's prefactor has no agreed value in two dimensions. (Before, k was between 0
+  // and 2 for one packing, with W half a d too small and from 5 to 35 %.)
   const double width = 40.3;
   const std::vector<double> outlets{7, 10, 14, 18};
   std::vector<double> margins;

@@ -11,9 +11,9 @@
 namespace grseg::hard_cases {
 
 /// One line of the table of scripts/hard-cases: expectation and result of a hard case. Each check is
-/// an expectation of the test, too. The check that came nearest to its bound is recorded as a
-/// property of the test, key "H13: what", value "expected<tab>measured<tab>bound<tab>used", for
-/// scripts/hard-cases to collect.
+/// also an expectation of the test. The check that came nearest to its bound is recorded as a
+/// property of the test, with the key "H13: what" and the value
+/// "expected<tab>measured<tab>bound<tab>used", which scripts/hard-cases collects.
 class Case {
  public:
   /// `name` is the number of the case in docs/studies/hard-cases.md, as H13.
@@ -27,7 +27,7 @@ class Case {
                                   fmt::format("{}\t{:.4g}\t{}", expected_, measured_, bound_));
   }
 
-  /// `measured` differs from `expected` by at most `bound`.
+  /// Checks that `measured` differs from `expected` by at most `bound`.
   void near(double measured, double expected, double bound)
   {
     const double error = std::abs(measured - expected);
@@ -35,14 +35,14 @@ class Case {
     if (!(error <= bound))
       ADD_FAILURE() << fmt::format("{} is {:.17g}, not {:.17g} +- {:.3g}", key_, measured, expected,
                                    bound);
-    // A small error would not show in the digits of `measured`.
+    // A small error would not be visible in the digits of `measured`.
     const bool visible = error > 1e-4 * std::abs(expected);
     keep(bound > 0 ? error / bound : (error > 0 ? 2 : 0), fmt::format("{:.6g}", expected),
          visible ? measured : error,
          visible ? fmt::format("± {:.2g}", bound) : fmt::format("error ≤ {:.2g}", bound));
   }
 
-  /// `measured` is `bound` or less; both are positive or zero.
+  /// Checks that `measured` is at most `bound`; both are positive or zero.
   void at_most(double measured, double bound)
   {
     if (!(measured <= bound))
@@ -51,7 +51,7 @@ class Case {
          fmt::format("≤ {:.2g}", bound));
   }
 
-  /// `measured` lies between `low` and `high`.
+  /// Checks that `measured` is between `low` and `high`.
   void between(double measured, double low, double high)
   {
     if (!(low <= measured && measured <= high))
@@ -62,7 +62,7 @@ class Case {
          measured, "inside");
   }
 
-  /// A statement that is true or false.
+  /// Checks a statement that is true or false.
   void holds(bool fact)
   {
     if (!fact) ADD_FAILURE() << key_ << " does not hold";
@@ -80,7 +80,7 @@ class Case {
   }
 
   std::string key_;
-  double used_ = -1;  // part of the bound that the worst check has used up
+  double used_ = -1;  // largest part of the bound that a check has used
   std::string expected_, bound_;
   double measured_ = 0;
 };

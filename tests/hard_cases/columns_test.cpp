@@ -11,18 +11,18 @@
 #include <numbers>
 #include <random>
 
-/// How fast sweeps find the forces in a column of discs on a floor, where theory has it in closed
-/// form. The contacts of a column form a path, so Gauss-Seidel contracts errors by the square of
-/// what Jacobi does in whatever order it sweeps, by colour too (Young 1954, consistent order).
+/// Convergence of sweeps in a column of discs on a floor, for which theory has a closed form. The
+/// contacts of a column form a path, so a Gauss-Seidel sweep contracts errors by the square of
+/// Jacobi's factor, in any order of contacts, also by colour (Young 1954, consistent order).
 namespace grseg::hard_cases {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double gh = 9.8e-3;  // m/s, what gravity adds per step
+constexpr double gh = 9.8e-3;  // velocity that gravity adds per step, m/s
 
-/// Discs of these masses one above the other, each falling at g h, no impulse known. Contact k
-/// joins disc k to the one below it or to the floor.
+/// Discs of these masses one above the other, each falling at g h, with zero impulses at first.
+/// Contact k joins disc k to the disc below it or to the floor.
 struct Column {
   std::vector<Motion> motion;
   std::vector<Contact> contacts;
@@ -47,7 +47,7 @@ struct Column {
     return solve_contacts(contacts, motion, 0.5, {}, {tolerance, sweeps}, 0);
   }
 
-  /// Largest error of an impulse against the weight above it.
+  /// Largest deviation of an impulse from the weight above it.
   double error() const
   {
     double largest = 0;
@@ -61,7 +61,7 @@ struct Column {
   }
 };
 
-/// What a sweep leaves of the error, over the second half of so many sweeps.
+/// Factor by which a sweep reduces the error, from the second half of so many sweeps.
 double contraction(const Column& cold, int sweeps)
 {
   auto half = cold, whole = cold;
@@ -72,7 +72,7 @@ double contraction(const Column& cold, int sweeps)
 
 TEST(Column, ASweepContractsTheErrorByCosineSquaredOfPiOverTwoNInAnyOrder)
 {
-  // Jacobi's matrix has the eigenvalues cos((2k - 1) pi/2n). Per decade 0.933 n^2 sweeps.
+  // Jacobi's matrix has the eigenvalues cos((2k - 1) pi/2n): 0.933 n^2 sweeps per decade.
   Case rates("H13", "error left by a sweep, cos²(π/2n)");
   for (const std::size_t n : {5u, 20u, 60u}) {
     Column column(std::vector<double>(n, 1.0));
@@ -88,9 +88,8 @@ TEST(Column, ASweepContractsTheErrorByCosineSquaredOfPiOverTwoNInAnyOrder)
 
 TEST(Column, AHeavyDiscOnALightOneConvergesByROverOnePlusRPerSweep)
 {
-  // Sweep k leaves L^k of the impulse's error, L = R/(1 + R), and reports the residual
-  // L^k/(R (1 - L^k)).
-  // A light disc on a heavy one: R < 1.
+  // Sweep k leaves the part L^k of the impulse's error, L = R/(1 + R), and reports the residual L^k/(R (1 -
+  // L^k)). Here a light disc is on a heavy one: R < 1.
   Case heavy("H15", "load that k sweeps find, 1 − (R/(1 + R))ᵏ"),
       light("H16", "load that k sweeps find, 1 − (1 + R)⁻ᵏ");
   for (const double ratio : {1.0, 4.0, 100.0, 1e4, 0.25, 0.01, 1e-4}) {
@@ -108,8 +107,8 @@ TEST(Column, AHeavyDiscOnALightOneConvergesByROverOnePlusRPerSweep)
 
 TEST(Column, AHeavyDiscOnALightOneEndsWithinToleranceAndReportsItsSweeps)
 {
-  // With the residual above, sweeps end when L^k is R tol/(1 + R tol): 231 sweeps per decade at
-  // R = 100. At a tolerance that is not small against 1/R much of the load is still missing.
+  // With the residual above, sweeps end when L^k is R tol/(1 + R tol): 231 sweeps per decade at R =
+  // 100. With a tolerance that is not small against 1/R, much of the load is still missing then.
   Case count("H15", "sweeps until a tolerance is met");
   for (const double ratio : {4.0, 100.0, 1e4})
     for (const double tolerance : {1e-2, 1e-6}) {
@@ -130,10 +129,10 @@ TEST(Column, AHeavyDiscAtRestOnALightOneNeedsOneSweep)
   Case("H15", "sweeps of the column at rest, R = 10⁴").near(column.solve(1e-12, 100).sweeps, 1, 0);
 }
 
-/// A column swept `sweeps` times per step, at rest, that becomes heavier by 5 %.
+/// A column at rest, with `sweeps` sweeps per step, whose weight increases by 5 %.
 struct Burdened {
-  std::vector<double> force;  // on the floor, more than before, over what is to be added
-  std::vector<double> sink;   // of the top disc since then, over 5 % of g h^2
+  std::vector<double> force;  // increase of the force on the floor, over its final increase
+  std::vector<double> sink;   // sinking of the top disc since then, over 5 % of g h^2
 
   Burdened(int discs, int sweeps, int steps)
   {
@@ -158,8 +157,8 @@ struct Burdened {
     }
   }
 
-  /// Steps between the first and the `periods`-th later upward passage of the force through 1, per
-  /// period.
+  /// Period of the force: steps from the first to the `periods`-th later upward passage through 1,
+  /// per period.
   double period(int periods) const
   {
     std::vector<double> passages;
@@ -172,14 +171,14 @@ struct Burdened {
 
 TEST(Column, WithFewSweepsPerStepItRingsLikeAColumnOfSprings)
 {
-  // In a long wave all impulses change by nearly the same, P, from one sweep to the next. When a
-  // contact's turn comes, each neighbour has changed by P once since its last one, whatever the
-  // order, by colour too: so P is -m times the mean relative velocity that a sweep leaves behind,
-  // and N sweeps act like springs N m/h^2. The step is a leap-frog:
-  // sin(pi/T) = sqrt(N) sin(pi/4n), T = 4n/sqrt(N) steps for long waves, but for the part of a
-  // wave that the sweeps of a step damp out. In the end the top has sunk by 1' E (1 - E)^-1 e_1
-  // g h^2, E what the sweeps of a step leave of the relative velocities: near n^2/2N for any order,
-  // ((n^2 - 1)/N - 1)/2 for n even and two colours.
+  // In a long wave all impulses change by nearly the same amount, P, from one sweep to the next.
+  // When a contact is relaxed, each neighbour has changed by P once since the contact's last
+  // relaxation, in any order, also by colour. So P is -m times the mean relative velocity that a
+  // sweep leaves, and N sweeps act like springs N m/h^2. The step is a leap-frog: sin(pi/T) =
+  // sqrt(N) sin(pi/4n), T = 4n/sqrt(N) steps for long waves, except for the part of a wave that the
+  // sweeps of a step damp. In the end the top has sunk by 1' E (1 - E)^-1 e_1 g h^2, where E is the
+  // matrix that sweeps of a step apply to the relative velocities: near n^2/2N for any order, ((n^2
+  // - 1)/N - 1)/2 for n even and two colours.
   const int n = 40;
   Case periods("H14", "period over π/asin(√N sin(π/4n)) steps, n = 40, N = 5, 20, 80"),
       sinking("H14", "sinking of the top over ((n² − 1)/N − 1)/2 g h²");

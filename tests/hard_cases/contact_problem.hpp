@@ -7,14 +7,14 @@
 
 namespace grseg::hard_cases {
 
-/// The problem that a step had to solve, on its own: contacts in the order of the frame, that is of
-/// grain ids, without an initial guess, and the motion that gravity alone would have given.
+/// The contact problem of one step by itself: contacts in the order of the frame (grain ids),
+/// without an initial guess, and the motion that gravity alone would have caused.
 struct ContactProblem {
   std::vector<Contact> contacts;
-  std::vector<Motion> motion;  // of the grains; behind them that of the walls
+  std::vector<Motion> motion;  // motion of the grains, followed by that of the walls
 };
 
-/// The problem of the step that `frame` records, under the touching law.
+/// The contact problem of the step that `frame` records, under the touching law.
 inline ContactProblem contact_problem(const Simulation& simulation, const Frame<2>& frame)
 {
   const auto& world = simulation.world();

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// Coefficients and conditions at the ends of their ranges: each flow stays within its bound or is
-/// stopped with a clear message.
+/// Coefficients and conditions at the limits of their ranges: each flow stays within its bound or
+/// is stopped with a clear message.
 namespace grseg::hard_cases {
 namespace {
 
@@ -35,9 +35,9 @@ Simulation heavy_on_light(double ratio, double tolerance, int max_sweeps)
 
 TEST(MassRatio, OfAMillionOnOneIsCarriedIfThereAreEnoughSweeps)
 {
-  // R ln 10 sweeps per decade. Sweep k changes the velocity by L^(k - 1) g h, L = R/(1 + R)
-  // (columns_test.cpp), and the first step ends when that is below the tolerance times g h. The next
-  // step begins with twice the missing part, which is below the tolerance of larger loads.
+  // A decade needs R ln 10 sweeps. Sweep k changes the velocity by L^(k - 1) g h, L = R/(1 + R)
+  // (columns_test.cpp), and the first step ends when this is below the tolerance times g h. The next
+  // step begins with twice the missing part, which is below the tolerance because loads are larger.
   const double ratio = 1e6, tolerance = 1e-6;
   auto pair = heavy_on_light(ratio, tolerance, 20000000);
   const auto first = pair.advance();
@@ -50,8 +50,8 @@ TEST(MassRatio, OfAMillionOnOneIsCarriedIfThereAreEnoughSweeps)
 
 TEST(MassRatio, OfAMillionOnOneStopsARunIfThereAreTooFewSweeps)
 {
-  // 500 sweeps per step act like a spring of 500 m/h^2 of the light disc: the heavy one sinks by
-  // 10^6 g h^2/500 = 0.2 d.
+  // 500 sweeps per step act like a spring 500 m/h^2 with the mass m of the light disc: the heavy
+  // disc sinks by 10^6 g h^2/500 = 0.2 d.
   const auto words = words_of_a_run(heavy_on_light(1e6, 1e-2, 500), 1, 2000);
   Case("G1", "with 500 sweeps the run says that the mean overlap is too large")
       .holds(words.find("the mean overlap is") != std::string::npos);
@@ -59,9 +59,9 @@ TEST(MassRatio, OfAMillionOnOneStopsARunIfThereAreTooFewSweeps)
 
 TEST(Column, OfFiveHundredDiscsSinksByNoMoreThanTwiceItsStaticSinking)
 {
-  // Springs N m/h^2 (columns_test.cpp) under a load that is there at once swing to twice their
-  // length at rest, the top sinks by n^2 g h^2/N. The mean of overlaps at the bottom swings to 2 n
-  // g h^2/N; where sweeps go by colour those of the first have twice that and the others none.
+  // Sweeps act like springs N m/h^2 (columns_test.cpp). Under a sudden load they oscillate to twice their
+  // deflection at rest: the top sinks by n^2 g h^2/N. The mean overlap at the bottom reaches 2 n g h^2/N;
+  // with sweeps by colour, contacts of the first colour have twice that and the others none.
   const int n = 500, sweeps = 50, steps = 400;
   std::vector<Disc> discs;
   for (int k = 0; k < n; ++k) discs.push_back({{0, 0.5 + k}, 0.5});
@@ -86,9 +86,9 @@ TEST(Column, OfFiveHundredDiscsSinksByNoMoreThanTwiceItsStaticSinking)
 
 TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
 {
-  // A grain overlaps the floor by no more than its way per step (H23), and comes down no faster
-  // than in a free fall from the top. That this bound has the weight on it, too, is no matter: eight
-  // layers sink by n^2 g h^2/N (G2), a thousandth of it.
+  // A grain overlaps the floor by at most its way per step (H23), and it falls no faster than in a
+  // free fall from the top. The bound ignores that weight also causes overlap: eight layers sink by
+  // n^2 g h^2/N (G2), a thousandth of the bound.
   Case defects("G4", "energy defect of a step, friction 0, 1, 10 and e 0, 1"),
       overlap("G4", "overlap with the floor over the way per step after a fall from the top");
   for (const double mu : {0.0, 1.0, 10.0})
@@ -99,7 +99,7 @@ TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
       double top = 0;
       for (const auto& x : c.position) top = std::max(top, x.y());
       const double fall =
-          c.world.step * std::sqrt(1 - 2 * c.world.gravity.y() * top);  // at first 1 m/s at most
+          c.world.step * std::sqrt(1 - 2 * c.world.gravity.y() * top);  // at most 1 m/s at first
       Frame<2> frame;
       for (int step = 0; step < 1500; ++step) {
         simulation.advance(frame);
@@ -113,10 +113,10 @@ TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
     }
 }
 
-/// What happened to a dense cloud of rough discs between two walls, without gravity.
+/// Results for a dense cloud of rough discs between two walls, without gravity.
 struct Cooling {
   double energy, largest_gain = 0,
-                 gains = 0;  // over that at first; of a step, relative; all, over it
+                 gains = 0;  // ends over first energy; gain of a step; gains over first
   int sweeps = 0, missed = 0;
 
   explicit Cooling(double restitution)
@@ -143,8 +143,8 @@ struct Cooling {
 
 TEST(Cloud, OfRoughDiscsCoolsWithoutGravityUntilLoadsHaveFaded)
 {
-  // With e = 0 a step is a projection: sum p u after it is friction's, so no step gains energy.
-  // With e > 0 steps in which several contacts act may (impacts_test.cpp).
+  // With e = 0 a step is a projection: sum p u after it is due to friction alone, so no step gains
+  // energy. With e > 0, steps in which several contacts act may gain energy (impacts_test.cpp).
   const Cooling inelastic(0), rebounding(0.5);
   Case("G8", "largest gain of energy of a rough cloud in a step, e = 0, relative")
       .at_most(inelastic.largest_gain, 1e-9);
@@ -158,8 +158,7 @@ TEST(Cloud, OfRoughDiscsCoolsWithoutGravityUntilLoadsHaveFaded)
   }
 }
 
-/// A fixed floor of discs, five layers on it, and one disc that comes down on them at 10^4
-/// sqrt(g d).
+/// A fixed floor of discs, five layers on it, and one disc that falls on them at 10^4 sqrt(g d).
 Simulation projectile(double step)
 {
   std::vector<Disc> discs;
@@ -178,10 +177,10 @@ Simulation projectile(double step)
   return simulation;
 }
 
-/// What a projectile does in a bed until it has slowed down.
+/// Results for a projectile in a bed until it has slowed down.
 struct Caught {
-  double overlap = 0, gain = 0;  // largest, in d; of kinetic energy in a step, relative
-  int divided = 0, below = 0;    // steps in parts; grains below the floor in the end
+  double overlap = 0, gain = 0;  // overlap in d; relative energy gain of a step
+  int divided = 0, below = 0;    // number of steps in parts; grains below the floor at the end
 
   Caught(double step, int steps)
   {
@@ -202,7 +201,7 @@ struct Caught {
 
 TEST(Projectile, AtTenThousandTimesTheNaturalSpeedIsRefusedWithTheStepThatWouldDo)
 {
-  // It moves by 100 d per step, of which a 64th is 1.6 d; half a diameter is allowed.
+  // The projectile moves by 100 d per step; a 64th of that is 1.6 d, and half a diameter is allowed.
   const double natural = 1 / std::sqrt(g), whole = 5e-5 * natural;
   const auto words = words_of_a_run(projectile(0.01 * natural), 1, 200);
   const auto at = words.find("use a step below ");
@@ -211,14 +210,14 @@ TEST(Projectile, AtTenThousandTimesTheNaturalSpeedIsRefusedWithTheStepThatWouldD
   Case("G7", "step that the refusal asks for, 64 × 10⁻⁴ √(d/g)/2, s")
       .near(advised, 64 * whole, 64 * 3e-6);
 
-  // With a tenth of a step that needs no parts the projectile is caught by the bed.
+  // With a tenth of the step, which needs no parts, the bed catches the projectile.
   const Caught gently(whole / 10, 20000);
   Case("G7", "overlap at a tenth of a step that needs no parts, of d").at_most(gently.overlap, 0.1);
   Case("G7", "largest gain of kinetic energy in a step, relative").at_most(gently.gain, 1e-3);
   EXPECT_EQ(gently.divided, 0);
   EXPECT_EQ(gently.below, 0);
 
-  // Steps in parts catch it, too, with an overlap of no more than the way in a part.
+  // Steps in parts catch it, too, with an overlap of at most the way in one part.
   const Caught in_parts(advised / 10, 320);
   Case("G7", "overlap in steps of some 3 d, taken in parts, of d").at_most(in_parts.overlap, 0.5);
   Case("G7", "grains that such a projectile pushes through the floor").at_most(in_parts.below, 0);

@@ -14,7 +14,7 @@
 #include <limits>
 #include <string>
 
-/// A single disc that falls, bounces, stops, or is too fast.
+/// A single disc that falls, bounces, stops, or is too fast for the step.
 namespace grseg::hard_cases {
 namespace {
 
@@ -37,7 +37,7 @@ Simulation released(World world, double height, double restitution, double step)
   return {world, {{0, r + height}}};
 }
 
-/// Height of the apex to which the disc is on its way, above the one at rest.
+/// Height of the next apex of the disc, relative to its height at rest.
 double apex(const Simulation& s)
 {
   const double v = s.velocity(0).y();
@@ -58,11 +58,11 @@ TEST_P(Fall, FreeFallIsExactForAnyStep)
   }
 }
 
-/// Follows a bouncing disc until 2 t*, when Zeno's bounces have been over for t*.
+/// Follows a bouncing disc until 2 t*; its infinitely many bounces (Zeno) end at t*.
 struct Bounces {
   std::vector<double> apexes;
-  double path = 0;      // m
-  double last_run = 0;  // s, when it was last faster than g h
+  double path = 0;      // length of the path, m
+  double last_run = 0;  // last time at which it was faster than g h, s
 
   explicit Bounces(Simulation& simulation, double until)
   {
@@ -80,8 +80,8 @@ struct Bounces {
 
 TEST_P(Fall, ZenosBouncesEndInFiniteTimeWithAnErrorOfFirstOrder)
 {
-  // An impact at speed v changes e^2 times the apex by at most (1 - e)(1 + 3e/2) v h: the begin of
-  // the step in which it happens lies within that of the ground. With v = e^(n-1) v_0 these add up
+  // An impact at speed v changes e^2 times the apex by at most (1 - e)(1 + 3e/2) v h, because the step in
+  // which it happens begins up to a step's way above the ground. With v = e^(n-1) v_0 these changes add up
   // to (1 + 3e/2) v_0 h e^(n-1), and over the way up and down to 2 (1 + 3e/2) v_0 h/(1 - e).
   const double height = 1, v0 = std::sqrt(2 * g * height);
   Case heights("H4", "apexes e²ⁿ H, m"), path("H4", "path H (1 + e²)/(1 − e²), m"),
@@ -91,7 +91,7 @@ TEST_P(Fall, ZenosBouncesEndInFiniteTimeWithAnErrorOfFirstOrder)
       auto simulation = released(world_of({{{0, 0}, r}}), height, e, h);
       const double end = std::sqrt(2 * height / g) * (1 + e) / (1 - e);
       const Bounces seen(simulation, 2 * end);
-      const double unit = 1.1 * (1 + 1.5 * e) * v0 * h;  // 1.1: impacts are faster by up to g h
+      const double unit = 1.1 * (1 + 1.5 * e) * v0 * h;  // impacts are faster by up to g h
       int n = 0;
       while (v0 * std::pow(e, n) > 10 * g * h) {
         ++n;
@@ -108,8 +108,8 @@ TEST_P(Fall, ZenosBouncesEndInFiniteTimeWithAnErrorOfFirstOrder)
 
 TEST_P(Fall, AnElasticDiscBouncesToTheSameHeightTenThousandTimes)
 {
-  // An elastic impact turns the velocity round at the position where its step began, so the
-  // discrete motion is reversed exactly.
+  // An elastic impact reverses the velocity at the position where its step began, so the discrete
+  // motion is reversed exactly.
   auto simulation = released(world_of({{{0, 0}, r}}), 1, 1, 0.02);
   double highest = 0, lowest = 2;
   for (int bounces = 0; bounces < 10000;) {
@@ -162,7 +162,7 @@ TEST_P(Fall, AnInelasticDiscStopsAtItsFirstContactAndStays)
   }
 }
 
-/// A row of touching fixed discs along y = 0, and one disc above it that comes down by `per_step`
+/// A row of touching fixed discs along y = 0, and one disc above it that moves down by `per_step`
 /// diameters per step, over a disc (offset 0) or between two (offset 1/2).
 Simulation over_a_row(World world, double offset, double height, double per_step)
 {
@@ -176,7 +176,7 @@ Simulation over_a_row(World world, double offset, double height, double per_step
 
 TEST_P(Fall, ADiscAsFastAsARunAllowsDoesNotPassThroughTheBase)
 {
-  // Half a diameter per step, which the recorder refuses to exceed.
+  // Half a diameter per step is the largest motion that the recorder accepts.
   Case overlaps("H23", "overlap with the base, of the way per step");
   for (const double offset : {0.0, 0.25, 0.5})
     for (const double per_step : {0.01, 0.1, 0.3, 0.5})
@@ -198,8 +198,8 @@ class Tunnelling : public UnderEveryLaw {
   void TearDown() override { std::filesystem::remove(path); }
 
   struct Run {
-    std::string words;  // with which it is stopped within its ten steps, or none
-    double lowest = std::numeric_limits<double>::infinity();  // m, of the disc, after a step
+    std::string words;  // message with which it is stopped within ten steps, or none
+    double lowest = std::numeric_limits<double>::infinity();  // lowest height, m
     int divided = 0;                                          // steps taken in parts
   };
   Run run(Simulation simulation)
@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Tunnelling, testing::ValuesIn(laws()), name_of);
 
 TEST_P(Tunnelling, ADiscThatCouldPassAnotherWithinAPartOfAStepStopsTheRunWithTheStepThatWouldDo)
 {
-  // 40 diameters per step are 5/8 in each of the 64 parts, of which half a diameter is allowed.
+  // 40 diameters per step are 5/8 of a diameter in each of the 64 parts; half a diameter is allowed.
   const auto words = run(over_a_row(world_of({}), 0, 42, 40)).words;
   EXPECT_NE(words.find("0.62 d_S in 1/64 of a step"), std::string::npos) << words;
   EXPECT_NE(words.find("use a step below 0.0008 s"), std::string::npos) << words;
@@ -236,7 +236,7 @@ TEST_P(Tunnelling, ADiscThatCouldPassAnotherWithinAPartOfAStepStopsTheRunWithThe
 
 TEST_P(Tunnelling, ADiscThatCouldPassThroughARowWithinAStepDoesNotAtAnyPhase)
 {
-  // Its steps are taken in parts; a run goes on, or is stopped for the overlap of an impact.
+  // Steps are taken in parts. The run continues, or is stopped because of the overlap in an impact.
   Case passed("H23", "discs at 1 to 31 diameters per step that passed a row"),
       divided("H23", "runs of them without a step in parts");
   int through = 0, whole = 0;

@@ -24,8 +24,8 @@ struct Crowd {
   }
 };
 
-/// `columns` times `rows` discs, none touching, with random velocities of up to `speed`, in a cell
-/// that is periodic in x, above y = 0.
+/// `columns` times `rows` discs that do not touch, with random velocities of up to `speed`, above y
+/// = 0 in a cell that is periodic in x.
 inline Crowd crowd(int columns, int rows, double speed)
 {
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random{gsl_rng_alloc(gsl_rng_mt19937),
@@ -50,7 +50,7 @@ inline Crowd crowd(int columns, int rows, double speed)
   return c;
 }
 
-/// The same, which falls on a floor and flows down the slope whose tangent is `slope`.
+/// The same discs; they fall on a floor and flow down a slope whose tangent is `slope`.
 inline Crowd flow(int columns, int rows, double slope)
 {
   auto c = crowd(columns, rows, 1);

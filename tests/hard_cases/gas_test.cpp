@@ -19,8 +19,8 @@ using std::numbers::pi;
 constexpr double solid_fraction = 0.2;
 constexpr int columns = 60, rows = 60;
 
-/// Smooth equal discs of diameter 1 with Gaussian velocities of temperature m, between two walls
-/// and periodic along them; first elastic, so that nothing of the lattice is left.
+/// Smooth equal discs of diameter 1 with Gaussian velocities of temperature m, between two walls and
+/// periodic along them. They are elastic at first, so that nothing of the initial lattice remains.
 Simulation equilibrium(double restitution)
 {
   const double pitch = std::sqrt(pi / 4 / solid_fraction);
@@ -50,7 +50,7 @@ Simulation equilibrium(double restitution)
   return gas;
 }
 
-/// J, of the motion about the mean: one kT per disc in the plane.
+/// Temperature, J, of the motion about the mean: one kT per disc in two dimensions.
 double temperature(const Simulation& gas)
 {
   const auto count = static_cast<double>(gas.world().grains.size());
@@ -61,12 +61,12 @@ double temperature(const Simulation& gas)
 
 TEST(Gas, CoolsByHaffsLawUntilItClusters)
 {
-  // dT/dt = -(1 - e^2)/2 w T between discs, w = 2 sqrt(pi) n d chi sqrt(T/m) (Enskog; Brilliantov &
-  // Poeschel 2004). Each disc that meets one of two walls at distance H loses (1 - e^2) T as well;
-  // density there is that of the pressure, n (1 + 2 phi chi), which makes sqrt(2) (1 + 2 phi
-  // chi)/(pi n d H chi) more.
-  // The law takes velocities for uncorrelated. As vortices grow it is left behind in proportion to
-  // 1 - e^2, whatever the step: by 15 % at e = 0.8, 8 % at 0.9, 4 % at 0.95 after 3 t_e.
+  // Collisions between discs: dT/dt = -(1 - e^2)/2 w T, w = 2 sqrt(pi) n d chi sqrt(T/m) (Enskog;
+  // Brilliantov & Poeschel 2004). A disc that hits one of two walls at distance H also loses (1 -
+  // e^2) T; the density at walls follows from the pressure, n (1 + 2 phi chi), which adds sqrt(2)
+  // (1 + 2 phi chi)/(pi n d H chi). The law assumes uncorrelated velocities. As vortices grow, the
+  // deviation from the law is proportional to 1 - e^2, whatever the step: 15 % at e = 0.8, 8 % at
+  // 0.9, 4 % at 0.95 after 3 t_e.
   Case law("H28", "temperature over Haff's law up to t = 3 t_e, e = 0.95, 0.98");
   Case cooling("G8", "largest gain of energy of a cooling gas in a step, relative");
   for (const double e : {0.95, 0.98}) {

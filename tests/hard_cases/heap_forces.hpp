@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What statics and Coulomb's law leave open in the heap of case H19: the least and the largest normal
-/// force of each contact, in weights of a disc. By linear programming, tests/independent/heap_forces.py.
+/// Bounds of the contact forces in the heap of case H19, which statics and Coulomb's law leave
+/// undetermined: the smallest and the largest normal force of each contact, in weights of a disc.
+/// Computed by linear programming in tests/independent/heap_forces.py.
 namespace grseg::hard_cases {
 
 struct ForceRange {

@@ -20,11 +20,11 @@ INSTANTIATE_TEST_SUITE_P(Laws, Impact, testing::ValuesIn(laws()), name_of);
 
 constexpr double restitutions[] = {0, 0.25, 0.5, 1};
 
-/// The first step in which something touches.
+/// Velocities before and after the first step in which discs touch.
 struct Encounter {
   SeenContact contact;
   Velocities before, after;
-  double lost;  // J, of kinetic energy
+  double lost;  // loss of kinetic energy, J
 
   Vec2 u_before() const { return contact.relative(before); }
   Vec2 u_after() const { return contact.relative(after); }
@@ -44,8 +44,8 @@ Encounter encounter(Simulation simulation)
   }
 }
 
-/// Two discs of masses 1 and `mass` that approach at 3 m/s along x, their centres `offset` sums of
-/// radii apart across it, and touch `steps` steps later.
+/// Two discs of masses 1 and `mass` that approach at 3 m/s along x and touch `steps` steps later.
+/// Across x their centres are `offset` times the sum of radii apart.
 Simulation two_discs(World world, double mass, double offset, double steps)
 {
   const double reach = 0.75, way = std::sqrt(1 - offset * offset) * reach;
@@ -60,7 +60,7 @@ const std::vector<Disc> pair_of_discs{{{0, 0}, 0.5}, {{2, 0}, 0.25}};
 
 TEST_P(Impact, TwoDiscsReboundWithRestitutionEAtEveryPhaseOfTheStep)
 {
-  // Head-on and oblique, rough and spinning.
+  // Impacts head-on and oblique, of rough and spinning discs.
   Case rebound("H2", "separation over approach, less e"), momentum("H2", "relative error of p_n");
   for (const double mass : {1.0, 4.0, 1e-2, 1e6})
     for (const double e : restitutions)
@@ -88,7 +88,7 @@ TEST_P(EarlyImpact, TwoDiscsReboundHeadOnWithRestitutionEAtEveryPhaseOfTheStep)
     for (const double e : restitutions)
       for (int phase = 0; phase < 1000; ++phase) {
         auto world = world_of(pair_of_discs);
-        world.material = {0, e};  // friction would turn the line of centres between two steps
+        world.material = {0, e};  // friction would rotate the line of centres between two steps
         auto simulation = two_discs(world, mass, 0, 1 + phase / 1000.0);
         for (int step = 0; step < 6; ++step)
           largest_overlap = std::max(largest_overlap, simulation.advance(frame).largest_overlap);
@@ -115,9 +115,8 @@ TEST_P(Impact, ASmoothImpactLosesOneMinusESquaredOfItsNormalEnergy)
 }
 
 /// Checks a disc of velocity -n + slip t and rim speed `spin` that hits something fixed whose
-/// surface at `target` has the normal n: it sticks
-/// iff |u_t| <= (1 + 2 kappa^2) mu (1 + e) |u_n|, which is 3 mu (1 + e) |u_n| at a wall.
-/// Returns whether it stuck.
+/// surface at `target` has the normal n. It sticks iff |u_t| <= (1 + 2 kappa^2) mu (1 + e) |u_n|,
+/// which is 3 mu (1 + e) |u_n| at a wall. Returns true if it stuck.
 bool check_oblique_impact(const World& world, const Vec2& target, const Vec2& n, double slip,
                           double spin, Case& tangential, Case& spinning)
 {
@@ -139,7 +138,7 @@ bool check_oblique_impact(const World& world, const Vec2& target, const Vec2& n,
 
 TEST_P(Impact, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
 {
-  // On a floor and on a fixed disc, spinning or not, to either side.
+  // Impacts on a floor and on a fixed disc, with and without spin, sliding to either side.
   const double mu = 0.3;
   Case tangential("H3", "v_t after the impact, m/s"), spinning("H3", "rω after the impact, m/s");
   for (const double e : restitutions)
@@ -178,8 +177,8 @@ std::vector<Disc> row_of(std::size_t count)
 
 TEST_P(Impact, AHitRowOfTouchingDiscsSharesTheImpulseEqually)
 {
-  // Newton's law for impacts at once, not the cradle: the contacts that did not approach do not
-  // rebound, so all discs but the first move as one.
+  // Newton's law for simultaneous impacts, not Newton's cradle: contacts that do not approach do
+  // not rebound, so all discs but the first move as one.
   const double v = 2;
   Case first("H7", "v₁, ((1 + e)/N − e) v, m/s"), others("H7", "all other speeds, m/s"),
       energy("H7", "energy kept, (1 + e²(N − 1))/N");
@@ -220,10 +219,10 @@ TEST_P(Impact, AnElasticRowWithGapsWiderThanAStepHandsTheSpeedToItsLastDisc)
 
 TEST_P(Impact, ThreeInelasticDiscsCollapseAtFiniteCost)
 {
-  // With e < 7 - 4 sqrt 3 = 0.0718 discs that meet one after the other would touch infinitely often
-  // before they stop. Where the time between two touches has become shorter than a step both
-  // contacts act in one, and what is left of each approach is e times it. So approaches end in a
-  // few steps, and what the discs part with is at most e of what they met with.
+  // With e < 7 - 4 sqrt 3 = 0.0718, discs that collide one after the other would touch infinitely
+  // often before they stop. Once the time between two touches is shorter than a step, both contacts
+  // act in one step, and each leaves e times its approach. So approaches end within a few steps,
+  // and the discs part with at most e times the speed of their meeting.
   Case sweeps("H29", "most sweeps of a step"), parting("H29", "largest speed of parting, m/s");
   for (const double e : {0.0, 0.01, 0.05, 0.07})
     for (const double left : {0.3, 0.7, 1.0}) {
@@ -244,9 +243,9 @@ TEST_P(Impact, ThreeInelasticDiscsCollapseAtFiniteCost)
 
 TEST_P(Impact, LoadsThatFadeNeedNoMoreSweepsThanRoundOffAllows)
 {
-  // The same collapse at the tightest tolerance. Changes relative to loads that themselves go to 0
-  // do not become small: sweeps end when they are in the last digits of the velocities. Three
-  // contacts at most halve what is left of an error with every sweep or two: 64 sweeps do.
+  // The same collapse at the tightest tolerance. Changes relative to loads that go to 0 do not
+  // become small, so sweeps end when changes are in the last digits of the velocities. Three
+  // contacts halve the remaining error with every sweep or two at least: 64 sweeps are enough.
   Case sweeps("H29", "most sweeps of a step at a tolerance of 1e-12");
   for (const double e : {0.0, 0.05}) {
     auto discs = row_of(3);
@@ -268,9 +267,9 @@ TEST_P(Impact, LoadsThatFadeNeedNoMoreSweepsThanRoundOffAllows)
 
 TEST_P(Impact, SimultaneousElasticImpactsKeepTheirEnergy)
 {
-  // u = (-3, 1) becomes (3, -1): (3, 0, 1) becomes (-1, 8, 5)/3. If the second pair, which was
-  // parting, stayed in touch, it would be (-2, 7, 7)/3, with 17/3 for half the squares instead of 5.
-  // The last disc overlaps by what it moves in a step, so that it takes part.
+  // u = (-3, 1) becomes (3, -1): velocities (3, 0, 1) become (-1, 8, 5)/3. If the second pair, which
+  // was parting, stayed in contact, they would be (-2, 7, 7)/3, with 17/3 for half the squares
+  // instead of 5. The last disc overlaps by its way in a step, so that its contact acts.
   auto discs = row_of(3);
   discs[2].position.x() -= 1e-3;
   auto world = world_of(discs);
@@ -320,7 +319,7 @@ TEST_P(ImpactAtOnce, AStepOfManySmoothContactsLosesOneMinusEOverOnePlusEOfHalfPW
 
 TEST_P(ImpactAtOnce, ALightDiscThatRattlesBetweenHeavyOnesDoesNotDriveThemApart)
 {
-  // It has no room: each step it strikes one of them and parts from the other.
+  // The disc has no space: in each step it hits one neighbour and parts from the other.
   auto discs = row_of(3);
   for (auto& disc : discs) disc.position.x() *= 0.99;
   auto world = world_of(discs);

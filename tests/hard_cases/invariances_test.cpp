@@ -13,12 +13,12 @@
 #include <cmath>
 #include <string>
 
-/// The same run in other units, on other instruction sets.
+/// The same run in other units and on other instruction sets.
 namespace grseg::hard_cases {
 namespace {
 
 /// The same crowd with all lengths times `length` and all masses times `mass`, under the same
-/// gravity, so that times go with the square root of lengths.
+/// gravity, so that times scale with the square root of lengths.
 Crowd scaled(Crowd c, double length, double mass)
 {
   const double time = std::sqrt(length);
@@ -60,7 +60,7 @@ TEST(Units, LengthsAThousandthAndMassesAMillionTimesGiveTheSameFlow)
 
 TEST(Units, TwelveDecadesOfDiametersGiveTheSameFlow)
 {
-  // Powers of ten round differently, and a flow forgets its beginning: 1000 steps.
+  // Powers of ten cause different rounding, and a flow forgets its initial state: 1000 steps.
   Case positions("G9", "positions in scaled units, lengths times 10⁻⁶ to 10⁶, m");
   const auto original = flow(6, 6, 0.5);
   auto a = original.simulation();
@@ -75,8 +75,8 @@ TEST(Units, TwelveDecadesOfDiametersGiveTheSameFlow)
   }
 }
 
-/// All that can be seen of a deposited and tilted chute of 50 grains after 200 steps, in units of
-/// 2^(2 k) for lengths and 2^k for times.
+/// All results of a deposited and tilted chute of 50 grains after 200 steps, in units of 2^(2 k)
+/// for lengths and 2^k for times.
 std::vector<double> seen_of_a_chute(int k)
 {
   const double length = std::ldexp(1, 2 * k), time = std::ldexp(1, k);
@@ -103,15 +103,15 @@ std::vector<double> seen_of_a_chute(int k)
 
 TEST(Units, DiametersFromNanometresToKilometresGiveTheSameSceneToTheLastBit)
 {
-  // Powers of two round alike, so anything that is not the same comes from a number with a unit in
-  // the program. From the scene's words to the forces, deposition and all.
+  // Powers of two do not change rounding, so any difference comes from a number with a unit in the program.
+  // The comparison covers everything from the scene's text to the forces, including deposition.
   Case same("G9", "a scene with d_S from 4.8 nm to 5.2 km is the same, bit for bit");
   const auto ours = seen_of_a_chute(0);
   for (const int k : {-10, -7, -3, 3, 7, 10}) same.holds(seen_of_a_chute(k) == ours);
 }
 
-/// The contact forces of the step that follows, of contacts in the order of ids: 50 sweeps without
-/// an initial guess. Gauss-Seidel's result depends on the order, which in a step is that of space.
+/// Contact forces of the following step, with contacts in the order of ids: 50 sweeps without an initial
+/// guess. The result of Gauss-Seidel depends on the order, which in a step is the order in space.
 struct Forces {
   ContactList<2> list;
   std::vector<Vec2> impulse;  // kg m/s
@@ -132,7 +132,7 @@ struct Forces {
   }
 };
 
-/// The crowd as it is after `steps` steps, as a new beginning.
+/// The crowd after `steps` steps, as a new initial state.
 Crowd after(Crowd c, int steps)
 {
   auto simulation = c.simulation();
@@ -172,7 +172,7 @@ TEST(Period, AShiftAlongItChangesNoContactAndNoForce)
 
 TEST(Period, AnObserverWhoMovesAlongSeesTheSameForces)
 {
-  // A crowd that is pressed together, seen from a train.
+  // A crowd that is pressed together, seen from a moving frame of reference.
   auto original = crowd(8, 8, 1);
   const auto press = [&] {
     for (std::size_t g = 0; g < original.position.size(); ++g)

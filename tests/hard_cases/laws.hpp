@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// The contact laws of the simulator: when a pair takes part in a step. What a test with a
-/// parameter expects must hold under each.
+/// Contact laws of the simulator, which set when a pair acts in a step (docs/glossary.md).
+/// Expectations of a test with a parameter must be true under each law.
 namespace grseg::hard_cases {
 
 struct Law {
@@ -20,22 +20,23 @@ struct Law {
   friend void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
 };
 
-/// The margin of the speculative law allows for neighbours; few discs have none to speak of.
+/// Parameters without a margin: the margin of the speculative law allows for neighbours, and a few
+/// discs have hardly any.
 inline LawParameters without_margin(ContactLaw law, double horizon)
 {
   return law_parameters(law, horizon, 0, 0, 0);
 }
 
-/// Those that act no earlier than in the step in whose middle the touch lies nearest; the bounds of
-/// the tests are theirs.
+/// Laws under which a pair acts no earlier than in the step whose middle is nearest to the touch;
+/// the bounds of the tests are for these laws.
 inline std::vector<Law> laws()
 {
   return {{"touch", without_margin(ContactLaw::touch, 0)},
           {"centred", without_margin(ContactLaw::centred, 0)}};
 }
 
-/// The others: predictive contacts act earlier, speculative ones are slowed down in one step and
-/// rebound in the next.
+/// The other laws: predictive contacts act earlier; speculative ones are slowed down in one step
+/// and rebound in the next.
 inline std::vector<Law> early_laws()
 {
   return {{"predictive", without_margin(ContactLaw::predictive, 0)},

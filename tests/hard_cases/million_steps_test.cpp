@@ -15,24 +15,26 @@
 #include <random>
 #include <tuple>
 
-/// The paper's chute for 1e6 steps: what grows without bound, however slowly, shows here.
+/// Staron & Phillips' chute for 1e6 steps, which reveals quantities that grow without bound,
+/// however slowly.
 namespace grseg::hard_cases {
 namespace {
 
 constexpr int all_steps = 1000000, between_samples = 500;
 
 struct Sample {
-  double time, overlap, sweeps;  // s; in d_S, mean over the steps since the last; mean
-  double defect, work;           // of the step itself: energy defect; J, of contacts
-  double kinetic, height;        // J; m
+  double time, overlap, sweeps;  // s; mean overlap since the last sample, d_S; mean sweeps
+  double defect, work;           // energy defect of the step; work of contacts, J
+  double kinetic, height;        // kinetic energy, J; height, m
 };
 
 struct History {
   std::vector<Sample> samples;
-  double d_s = 0, lowest = 0;                    // m
-  double lowest_pocket = 0, highest_pocket = 0;  // m, centre of a grain between two of the base
+  double d_s = 0, lowest = 0;                    // small diameter, lowest centre, m
+  double lowest_pocket = 0, highest_pocket = 0;  // centre of a grain between two base grains, m
   double solid_fraction = 0;
-  // J: gravity's work is the change of the potential energy to round-off, so the rest is contacts'.
+  // J. Gravity's work is the change of the potential energy up to round-off, so the rest is the
+  // work of contacts.
   double work_of_all_steps = 0;
   std::int64_t missed = 0;
   bool finite = true;
@@ -57,7 +59,7 @@ Sample sample_of(const Simulation& simulation, const Frame<2>& frame)
           bed_height(simulation)};
 }
 
-/// Height of the centre of a grain that lies on two touching base grains, over their tops.
+/// Height of the centre of a grain that lies on two touching base grains, relative to their tops.
 double pocket(double base, double radius)
 {
   return std::sqrt((base + radius) * (base + radius) - base * base) - base;
@@ -113,17 +115,18 @@ History flow_at(const char* slope)
   return history;
 }
 
-/// Trend of the mean overlap over the second half of the run, in twenty blocks of 25,000 steps,
-/// which forget one another. Impacts overlap by their speed times the step, and the speed of the
-/// flow still rises as the large grains come up, so what the scheme piles up is what the overlap
-/// gains on the speed, the root of the kinetic energy: the slope in time of a fit in time and speed
-/// together. Per 10^6 steps and over the mean; the standard error is from the scatter of the blocks.
+/// Trend of the mean overlap over the second half of the run, from twenty independent blocks of 25,000
+/// steps. Impacts overlap by their speed times the step, and the speed of the flow still increases as the
+/// large grains rise. An error of the scheme is therefore an increase of the overlap relative to the speed
+/// (root of the kinetic energy): the slope in time of a fit in time and speed together. It is given per
+/// 10^6 steps and over the mean; its standard error is from the scatter of the blocks.
 struct Drift {
   static constexpr std::size_t blocks = 20;
   double mean = 0;
-  double slope = 0, error = 0;  // at equal speed of the flow
+  double slope = 0, error = 0;  // trend at equal speed of the flow, and its error
 
-  /// The end of the 99.7 % interval that is farther from 0 (17 degrees of freedom: 3.45 errors).
+  /// Absolute bound: the end of the 99.7 % interval that is farther from 0 (17 degrees of freedom:
+  /// 3.45 errors).
   double at_most() const { return std::abs(slope) + 3.45 * error; }
 
   explicit Drift(const std::vector<Sample>& samples)
@@ -146,8 +149,7 @@ struct Drift {
   }
 
  private:
-  /// Coefficient of the first of the regressors, beside a constant, and its standard error, both
-  /// over `unit`.
+  /// Coefficient of the first regressor, beside a constant, and its standard error, both divided by `unit`.
   static std::pair<double, double> fit(const std::vector<double>& values, double unit,
                                        const std::vector<std::vector<double>>& regressors)
   {
@@ -172,7 +174,7 @@ struct Drift {
   }
 };
 
-/// Where the environment names a folder for it, the history is kept as a table.
+/// Writes the history as a table if the environment names a folder for it.
 void keep(const History& history, const std::string& slope)
 {
   const char* folder = std::getenv("GRSEG_HARD_CASES");
@@ -198,12 +200,12 @@ void check(const std::string& slope)
   const auto case_of = [&](const char* what) { return fmt::format("{} at {}°", what, slope); };
 
   const Drift overlap(history.samples);
-  // Above that a run stops.
+  // A run stops above this bound.
   Case(name, case_of("mean overlap, d_S")).at_most(overlap.mean, 0.01);
-  // B rises by 0.0043 from one overlap to one ten times as large (a line through the table of
-  // docs/studies/accuracy.md), by 0.0002 for a tenth more, which no campaign resolves: its
-  // error of B is 0.002. (The bound was three of the slope's own standard errors, which the noisier
-  // run passes more easily, and 0.02 for these; 0.070 and 0.016 were known.)
+  // B rises by 0.0043 if the overlap becomes ten times as large (a line through the table of
+  // docs/studies/accuracy.md), hence by 0.0002 for a tenth more, which no campaign resolves: its
+  // error of B is 0.002. (The bound was three standard errors of the slope, which the noisier run
+  // passes more easily, and 0.02 for these; 0.070 and 0.016 were known.)
   Case(name, case_of("change of the mean overlap at equal speed in 1e6 steps, over the mean, "
                      "farther end of its 99.7 % interval"))
       .at_most(overlap.at_most(), 0.1);
@@ -220,20 +222,20 @@ void check(const std::string& slope)
   Case(name, case_of("work of contacts per step, sampled, less change of energy, over its error"))
       .at_most(std::abs(mean - history.work_of_all_steps / all_steps) / error, 4);
 
-  // Nothing sinks below the pockets of the base, but for an overlap as large as a run allows in the
-  // mean, and some grain lies in one.
+  // No grain sinks below the pockets of the base, except by an overlap as large as the mean overlap
+  // that a run allows, and some grain lies in a pocket.
   Case(name, case_of("lowest centre above the tops of the base, d_S"))
       .between(history.lowest / history.d_s, history.lowest_pocket / history.d_s - 0.01,
                history.highest_pocket / history.d_s + 0.01);
-  // No packing of discs is denser than hexagons on average, were it not for the overlap; a flow of
-  // discs at I = 0.2, steeper than these, has 0.737 (docs/studies/scenes.md).
+  // Without overlap, no packing of discs is denser than hexagonal on average. A flow of discs at I
+  // = 0.2, steeper than these, has the solid fraction 0.737 (docs/studies/scenes.md).
   Case(name, case_of("solid fraction of the bed"))
       .between(history.solid_fraction, 0.737, std::numbers::pi / std::sqrt(12));
   Case(name, case_of("part of the steps above the tolerance"))
       .at_most(static_cast<double>(history.missed) / all_steps, 1e-3);
 }
 
-// Samples of a flow that speeds up by half, whose overlap follows the speed and scatters by 2 % from
+// Samples of a flow that speeds up by half. Its overlap follows the speed and scatters by 2 % from
 // sample to sample, as at 21 degrees, with or without a drift of its own.
 TEST(Drift, OfAFifthInAMillionStepsIsFoundAndASpeedThatRisesIsNone)
 {

@@ -9,14 +9,14 @@
 #include <algorithm>
 #include <cmath>
 
-/// One contact that closes among more than a thousand that have long been at rest.
+/// One contact that closes among more than a thousand contacts that have been at rest for long.
 namespace grseg::hard_cases {
 namespace {
 
 constexpr double tolerance = 1e-2;
 
-/// A bed of 60 layers of discs of diameter 1 on a row of fixed ones, periodic, that has come to
-/// rest under a disc of diameter 4, the last grain, held just above it.
+/// A periodic bed of 60 layers of discs of diameter 1 on a row of fixed discs, at rest. A disc of
+/// diameter 4, the last grain, is held just above it.
 Simulation settled_bed()
 {
   const int layers = 60, width = 12;
@@ -38,7 +38,7 @@ Simulation settled_bed()
   return bed;
 }
 
-/// The most that relaxing a contact by itself would still change after a step, over the reference
+/// Largest change that relaxing a single contact would still make after a step, over the reference
 /// velocity of the tolerance (solver.hpp), computed from the frame.
 double change_left(const Simulation& bed, const Frame<2>& frame)
 {
@@ -64,8 +64,8 @@ double change_left(const Simulation& bed, const Frame<2>& frame)
          reference;
 }
 
-/// How deep the last grain overlaps others when they first meet, and at most, m; and the most that
-/// relaxing any contact after a step would change.
+/// Overlap of the last grain with others when they first meet, and its maximum, m; and the largest
+/// change that relaxing any contact after a step would make.
 struct Landing {
   double first = 0, deepest = 0, change = 0;
 
@@ -92,11 +92,11 @@ struct Landing {
 
 TEST(Newcomer, ADiscThatLandsOnASettledBedIsStoppedWithinTheTolerance)
 {
-  // Its overlap is what it moved when it was first seen; after that step it sinks by no more than
-  // the tolerance times its way per step. A contact that has just been relaxed is as it should be.
-  // Then others change its discs, by the tolerance each, of which either disc takes half: five
-  // others on each disc leave 5 tolerances. Were the sweeps to stop at the quadratic mean of the
-  // changes, a single one of the 2200 could be as large as 47.
+  // The disc's overlap is its way in the step in which it was first detected; afterwards it sinks
+  // by at most the tolerance times its way per step. A contact is exact when it has just been
+  // relaxed. Then others change its discs by the tolerance each, of which either disc gets half:
+  // five other contacts on each disc leave 5 tolerances. If sweeps stopped by the quadratic mean of
+  // the changes, a single one of the 2200 could be as large as 47.
   const auto bed = settled_bed();
   const double step = bed.world().step;
   Case sinking("H40", "sinking after the step of first touch, of the way per step"),

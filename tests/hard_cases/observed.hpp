@@ -7,13 +7,12 @@
 #include <cmath>
 #include <vector>
 
-/// What tests see of a step from outside: the motion on both sides of it and the contacts of its
-/// frame.
+/// Observable quantities of a step: the motion before and after it, and the contacts of its frame.
 namespace grseg::hard_cases {
 
 struct Velocities {
   std::vector<Vec2> velocity;     // m/s
-  std::vector<double> rim_speed;  // m/s, radius times angular velocity
+  std::vector<double> rim_speed;  // radius times angular velocity, m/s
 
   explicit Velocities(const Simulation& simulation)
   {
@@ -47,7 +46,7 @@ struct SeenContact {
     if (j >= 0) kappa = list.branch[c].norm() / (radius[i] + radius[static_cast<std::size_t>(j)]);
   }
 
-  /// Velocity of i relative to j where they touch.
+  /// Velocity of i relative to j at the contact point.
   Vec2 relative(const Velocities& v) const
   {
     Vec2 difference = v.velocity[i];

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-/// Discs that overlap, hardly touch, have the same centre or hardly fit into their cell.
+/// Discs that overlap, barely touch, have the same centre or barely fit into their cell.
 namespace grseg::hard_cases {
 namespace {
 
@@ -18,7 +18,7 @@ using worlds::positions_of;
 
 TEST(Overlap, OfTwoDiscsAtRestStaysAndGivesNoEnergy)
 {
-  // Nothing pushes overlap out, so nothing of it enters the velocities.
+  // No force pushes overlapping discs apart, so overlap does not change velocities.
   Case overlap("H20", "overlap after 1000 steps, m"), energy("H20", "kinetic energy, J");
   for (const double delta : {1e-6, 0.01, 0.2, 0.9})
     for (const double e : {0.0, 1.0}) {
@@ -34,7 +34,7 @@ TEST(Overlap, OfTwoDiscsAtRestStaysAndGivesNoEnergy)
 
 TEST(Overlap, OfAFifthInACrowdAtRestGivesNoEnergyAndUnderGravityStopsARunWithAdvice)
 {
-  // The crowd is made of discs a fifth larger in radius than the lattice has room for.
+  // The radii of the crowd are a fifth larger than the lattice has space for.
   auto c = crowd(8, 8, 0);
   for (auto& r : c.world.grains.radius) r = 0.75;  // lattice 1.2
   auto floating = c.simulation();
@@ -50,7 +50,7 @@ TEST(Overlap, OfAFifthInACrowdAtRestGivesNoEnergyAndUnderGravityStopsARunWithAdv
              words.find("use a smaller step") != std::string::npos);
 }
 
-/// A disc that comes down on another, the gap in the middle of the next step being `gap`.
+/// Velocity after a disc moves down on another one; `gap` is the gap in the middle of the next step.
 Vec2 velocity_after(double gap)
 {
   const std::vector<Disc> discs{{{0, 0}, 0.5}, {{0, 0}, 0.5, true}};

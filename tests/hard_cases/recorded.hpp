@@ -11,8 +11,8 @@
 
 namespace grseg::hard_cases {
 
-/// Runs `steps` steps with a recorder, as grseg-sim does, with a frame every `every` steps. Returns
-/// the message with which a run out of bounds is stopped, or nothing.
+/// Runs `steps` steps with a recorder, as grseg-sim does, and writes a frame every `every` steps.
+/// Returns the message with which a run out of bounds is stopped, or nothing.
 inline std::string words_of_a_run(Simulation simulation, double small_diameter, int steps,
                                   int every = 1)
 {

@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
-/// Beds that nothing drives.
+/// Beds without any driving.
 namespace grseg::hard_cases {
 namespace {
 
-/// Energies in M g d_S, M the mass of all mobile grains.
+/// Energies in M g d_S, where M is the mass of all mobile grains.
 struct Rest {
-  double largest_gain = 0;  // of the total energy, over the least one so far
-  double kinetic = 0;       // at the end
+  double largest_gain = 0;  // gain of the total energy over its smallest value so far
+  double kinetic = 0;       // kinetic energy at the end
 
   Rest(const std::vector<std::string>& words, double duration)
   {
@@ -46,9 +46,9 @@ std::vector<std::string> heavy_above(const std::string& density_ratio, const std
 
 TEST(Rest, LightGrainsUnderHeavyOnesGetNoEnergyFromNothing)
 {
-  // When approaches that were errors of the solver rebounded, the energy rose by 0.81 and 0.19. An
-  // exact solution gains nothing; what is left is error of unfinished sweeps, its bound a
-  // choice after the fact.
+  // When approaches that were solver errors still rebounded, the energy rose by 0.81 and 0.19. An
+  // exact solution gains nothing; the rest is the error of unfinished sweeps, and its bound was
+  // chosen afterwards.
   Case gain("G14", "largest gain of energy of light grains under heavy ones, M g d_S"),
       end("G14", "kinetic energy of light grains under heavy ones after 5 s, M g d_S");
   for (const auto& words : {heavy_above("1000", "1"), heavy_above("300", "2")}) {
@@ -60,9 +60,8 @@ TEST(Rest, LightGrainsUnderHeavyOnesGetNoEnergyFromNothing)
 
 TEST(Rest, ADeepBedComesToRestAtEveryAccuracy)
 {
-  // An exact solution keeps a bed at rest. Single precision changes velocities by 1e-7 of what a
-  // step of gravity does. The bound of draft is a choice after the fact: one of eight seeds keeps
-  // 4e-8.
+  // An exact solution leaves a bed at rest. Single precision changes velocities by 1e-7 of gravity's change
+  // in a step. The bound of draft was chosen afterwards: one of eight seeds still has 4e-8.
   Case end("G14", "kinetic energy of a flat bed of 60 d_S after 6 s, M g d_S");
   end.at_most(Rest({"--slope", "0", "--accuracy", "draft"}, 6).kinetic, 1e-7);
   end.at_most(Rest({"--slope", "0", "--accuracy", "standard"}, 6).kinetic, 1e-9);
@@ -70,7 +69,7 @@ TEST(Rest, ADeepBedComesToRestAtEveryAccuracy)
 
 TEST(Rest, ABedUnderALoadedPlateComesToRestAndStays)
 {
-  // A body that owes a part of its load's impulse each step sinks by that: 1e-6 of it, the part at
+  // A body sinks by the part of its load's impulse that each step leaves out: a part of 1e-6, at
   // which its solve ends, would be 6e-5 d_S in 5 s.
   Case sinking("G15",
                "sinking of a loaded plate on a bed between the fifth and the tenth second, d_S"),
@@ -94,7 +93,7 @@ TEST(Rest, ABedUnderALoadedPlateComesToRestAndStays)
 
 TEST(Rest, HeavyGrainsDoNotSinkIntoLightOnes)
 {
-  // Rigid grains do not overlap; grseg-check allows 0.1 d_S. It was 0.2 to 0.7 d_S before.
+  // Rigid grains do not overlap; grseg-check allows 0.1 d_S. Before the correction it was 0.2 to 0.7 d_S.
   Case overlap("G16", "largest overlap where one species is much heavier, d_S");
   for (const char* masses : {"1000", "0.001"}) {
     auto words = heavy_above(masses, "1");
@@ -110,7 +109,7 @@ TEST(Rest, HeavyGrainsDoNotSinkIntoLightOnes)
 TEST(Rest, ABedOnABaseThatJerksGetsNoEnergyFromItsOwnContacts)
 {
   // Without restitution contacts do no positive work, p.(u + u')/2 <= 0 in each step. First guesses
-  // that an impact has left made 0.05 to 0.2 M g d_S of it in the step after.
+  // left by an impact made 0.05 to 0.2 M g d_S of work in the following step.
   Case gain("G18",
             "positive work of contacts without restitution in a bed on a base that jerks, M g d_S");
   for (const char* accuracy : {"standard", "reference"}) {
@@ -134,9 +133,9 @@ TEST(Rest, ABedOnABaseThatJerksGetsNoEnergyFromItsOwnContacts)
 
 TEST(Rest, GrainsInTheGapsOfABaseNeitherSinkNorLockForGood)
 {
-  // Gaps of 0.86 d_S. An impact of speed u makes forces of some u/(g h) weights, divided by the sine
-  // of the contacts, 0.3: 5,000 at the largest speeds of this flow; before, errors made them grow to
-  // 34,000 while overlaps grew to 0.15 d_S.
+  // Gaps of 0.86 d_S. An impact of speed u causes forces of about u/(g h) weights, divided by the
+  // sine 0.3 of the contacts' angle: 5,000 at the largest speeds of this flow. Before the
+  // correction, errors made forces grow to 34,000 and overlaps to 0.15 d_S.
   Case overlap("G17", "largest overlap of grains in gaps of the base, last of 20 s, d_S"),
       force("G17", "largest force on a base with gaps, last of 20 s, weights of a small grain");
   const auto scene = small_chute::paper_scene(

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-/// One disc on a plane: sliding, rolling, and the limit between them.
+/// One disc on a plane: sliding, rolling, and the transition between them.
 namespace grseg::hard_cases {
 namespace {
 
@@ -24,7 +24,7 @@ Simulation on_a_plane(double slope, double friction, bool rotation)
   return {world, {{0, r}}};
 }
 
-/// Of the lowest point.
+/// Velocity of the disc's lowest point.
 double slip(const Simulation& s)
 {
   return s.velocity(0).x() + r * s.angular_velocity(0);
@@ -32,7 +32,7 @@ double slip(const Simulation& s)
 
 TEST(SlidingDisc, WithoutRotationStopsAfterVSquaredOverTwoMuG)
 {
-  // Each step takes mu g h of the speed until less is left; friction is that of the whole step, so
+  // Each step removes mu g h of the speed until less is left. Friction acts over whole steps, so
   // only the last, incomplete step differs from the continuous motion: by at most mu g h^2/8.
   Case time("H9", "time v₀/(μg) to the stop, s"), way("H9", "way v₀²/(2μg) to the stop, m"),
       rest("H9", "speed afterwards, m/s");
@@ -78,7 +78,7 @@ TEST(DiscOnAnIncline, RollsIfTanIsAtMostThreeMuAndSlidesOtherwise)
   Case speed("H11", "speed after 1 s, m/s"), spin("H11", "rω after 1 s, m/s"),
       force("H11", "friction over mg"), way("H11", "way after 1 s, m");
   const double slope = 0.4, sine = std::sin(slope), cosine = std::cos(slope);
-  for (const double part : {0.1, 0.9, 0.999, 1.001, 1.1, 5.0}) {  // of tan/3
+  for (const double part : {0.1, 0.9, 0.999, 1.001, 1.1, 5.0}) {  // friction over tan(slope)/3
     const double mu = part * std::tan(slope) / 3;
     auto disc = on_a_plane(slope, mu, true);
     Frame<2> frame;

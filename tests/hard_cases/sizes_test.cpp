@@ -14,7 +14,7 @@
 namespace grseg::hard_cases {
 namespace {
 
-/// Two large discs fly into a loose bed of small ones, the diameter of which is 1/ratio.
+/// Two large discs fly into a loose bed of small ones of diameter 1/ratio.
 Crowd large_and_small(double ratio)
 {
   const double d = 1 / ratio;
@@ -40,7 +40,7 @@ Crowd large_and_small(double ratio)
   return c;
 }
 
-/// Pairs that touch, found by looking at all.
+/// Pairs that touch, found by checking all pairs.
 std::set<std::pair<int, int>> touching(const World& world, const Frame<2>& frame, double margin)
 {
   std::set<std::pair<int, int>> pairs;
@@ -89,7 +89,7 @@ TEST(SizeRatio, OfTenAndAHundredLosesNoPair)
 
 TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalance)
 {
-  // The large discs are 10^4 times as heavy as those on which they come down.
+  // The large discs are 10^4 times as heavy as the discs on which they fall.
   Case defects("G3", "energy defect of a step, size ratio 100"),
       momenta("G3", "impulse of the floor less that of weight and change of momentum, relative"),
       lowest("G3", "overlap with the floor over the radius, 1 where a centre is below it");
@@ -118,7 +118,7 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalance)
   for (std::size_t k = 0; k < grains.size(); ++k)
     lowest.at_most(std::max(0.0, 1 - simulation.position(k).y() / grains.radius[k]), 1);
 
-  // They land with 0.03 d_S per step, and may overlap by as much.
+  // They land at 0.03 d_S per step, and may overlap by as much.
   Case("G3", "a run in which they land goes on")
       .holds(words_of_a_run(c.simulation(), 0.01, steps, 10).empty());
 }

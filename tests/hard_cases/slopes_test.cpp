@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-/// Gravity that turns while a simulation runs.
+/// Gravity that changes its direction during a simulation.
 namespace grseg::hard_cases {
 namespace {
 
@@ -23,7 +23,7 @@ using worlds::positions_of;
 
 constexpr double g = 9.8;
 
-/// A disc of radius 1/2 on a level floor, whose slope increases by `angle` with every step.
+/// A disc of radius 1/2 on a floor that is level at first; its slope increases by `angle` in every step.
 Simulation disc_on_turning_floor(double angle, double friction)
 {
   const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
@@ -38,8 +38,8 @@ Simulation disc_on_turning_floor(double angle, double friction)
 
 TEST(Slope, ThatBecomesSteeperDrivesARollingDiscByTwoThirdsOfTheSumOfItsSines)
 {
-  // a = (2/3) g sin of the slope in the middle of each step, and the sum of sin (k + 1/2) angle
-  // over n steps is sin^2(n angle/2)/sin(angle/2). Up to 40 degrees, tan of which is below 3 mu.
+  // a = (2/3) g sin of the slope in the middle of each step; the sum of sin((k + 1/2) angle) over n
+  // steps is sin^2(n angle/2)/sin(angle/2). Valid up to 40 degrees, whose tan is below 3 mu.
   const int steps = 2000;
   const double angle = 40 * pi / 180 / steps;
   auto disc = disc_on_turning_floor(angle, 0.5);
@@ -53,8 +53,8 @@ TEST(Slope, ThatBecomesSteeperDrivesARollingDiscByTwoThirdsOfTheSumOfItsSines)
 
 TEST(Gravity, TurnedUpsideDownReleasesASmoothDiscAtNinetyDegrees)
 {
-  // Until the slope is vertical the floor carries the disc; from there to 180 degrees it gains
-  // sum g h sin of as many steps, along the floor twice that.
+  // Until the slope is vertical the floor carries the disc; from there to 180 degrees the disc
+  // gains the sum of g h sin of as many steps, and along the floor twice that.
   const int quarter = 1000;
   const double angle = pi / 2 / quarter;
   auto disc = disc_on_turning_floor(angle, 0);
@@ -71,7 +71,7 @@ TEST(Gravity, TurnedUpsideDownReleasesASmoothDiscAtNinetyDegrees)
       .near(disc.velocity(0).x() / (2 * gained), 1, 1e-10);
 }
 
-/// All that steps depend on, as bits.
+/// All variables on which steps depend, as bits.
 std::vector<std::uint64_t> bits_of(const Simulation& simulation)
 {
   std::vector<std::uint64_t> bits;
@@ -105,7 +105,7 @@ TEST(Slope, ThatTurnsContinuesBitForBitAfterARestart)
 
 TEST(Gravity, ReversedLetsABedFallUpwardsAsAWhole)
 {
-  // Contacts pull on nothing and overlaps push nothing, so every grain gains g t.
+  // Contacts do not pull and overlaps do not push, so every grain gains g t.
   auto c = flow(8, 6, 0);
   auto bed = c.simulation();
   for (int step = 0; step < 6000; ++step) bed.advance();
@@ -125,8 +125,8 @@ TEST(Gravity, ReversedLetsABedFallUpwardsAsAWhole)
 
 TEST(Slope, ThatChangesDuringTheRunKeepsTheEnergyBudgetOfEveryStep)
 {
-  // From level to 45 degrees and back, a little with every step. No grain overlaps the floor by more
-  // than its way per step (H23) after a free fall from the top.
+  // The slope goes from level to 45 degrees and back, by a small angle per step. No grain overlaps
+  // the floor by more than its way per step (H23) after a free fall from the top.
   Case defects("G12", "energy defect of a step while the slope turns"),
       overlaps("G12", "mean overlap, of d_S"),
       floor("G12", "overlap with the floor over the way per step after a fall from the top");
@@ -150,7 +150,7 @@ TEST(Slope, ThatChangesDuringTheRunKeepsTheEnergyBudgetOfEveryStep)
   overlaps.at_most(overlap / touching / 0.7, 0.01);
   double top = 0;
   for (const auto& x : c.position) top = std::max(top, x.y());
-  const double fall = c.world.step * std::sqrt(1 + 2 * g * top);  // at first 1 m/s at most
+  const double fall = c.world.step * std::sqrt(1 + 2 * g * top);  // at most 1 m/s at first
   for (std::size_t k = 0; k < c.position.size(); ++k)
     floor.at_most(std::max(0.0, c.world.grains.radius[k] - simulation.position(k).y()) / fall, 1);
 }

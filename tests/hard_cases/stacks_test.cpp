@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-/// Discs at rest on each other: how the weight is shared, and when it cannot be carried.
+/// Discs at rest on each other: distribution of the weight, and limits of equilibrium.
 namespace grseg::hard_cases {
 namespace {
 
@@ -56,8 +56,8 @@ TEST(Column, TheKthDiscCarriesTheWeightOfThoseAboveAndNothingMovesSideways)
   }
 }
 
-/// One disc on two that nearly touch, on a floor. Were they to touch they could also push each
-/// other, by an amount that nothing determines.
+/// One disc on two that nearly touch, on a floor. If these touched, they could also push each other
+/// by an undetermined force.
 Simulation pyramid(double friction)
 {
   const double gap = 1e-6, x = (1 + gap) / 2;
@@ -72,9 +72,9 @@ Simulation pyramid(double friction)
 
 TEST(Pyramid, OfThreeDiscsStandsIfFrictionIsAtLeastTheTangentOf15Degrees)
 {
-  // Torque on a lower disc is balanced if friction is the same above and below, so
-  // N sin 30 = T (1 + cos 30): T/N = tan 15. The floor, which bears 3/2 N of it, would get along
-  // with tan 15/3; one friction holds for all contacts here, so that of the discs decides.
+  // The torque on a lower disc is balanced if friction is equal above and below, so N sin 30 = T (1
+  // + cos 30): T/N = tan 15. For the floor, which carries 3/2 N, tan 15/3 would suffice; all
+  // contacts have one friction coefficient here, so the value for the discs is needed.
   Case normal("H17", "N over mg/2"), tangential("H17", "T over mg tan 15°/2"),
       below("H17", "force of the floor over 3mg/2"), still("H17", "speed after 2 s, μ = 0.28, m/s");
   const double weight = mass_of(0.5) * g;
@@ -104,8 +104,8 @@ TEST(Pyramid, OfThreeDiscsFallsIfFrictionIsLess)
 
 TEST(Groove, ADiscBetweenTwoWallsRestsAndItsForcesLieInTheInterval)
 {
-  // f_n (cos a + tau sin a) = mg/2 at each wall with |tau| <= mu the part of friction that is used:
-  // not unique. Velocity is.
+  // f_n (cos a + tau sin a) = mg/2 at each wall, where |tau| <= mu is the part of friction that is
+  // used: the force is not unique, the velocity is.
   Case forces("H18", "f_n over mg/2 in its interval"), still("H18", "speed, m/s"),
       wedged("H18", "least f_n over f_n where friction can wedge the disc");
   for (const double degrees : {20.0, 45.0, 70.0})
@@ -124,7 +124,7 @@ TEST(Groove, ADiscBetweenTwoWallsRestsAndItsForcesLieInTheInterval)
       for (std::size_t c = 0; c < 2; ++c) {
         const double f_n = frame.contacts.force[c].dot(frame.contacts.branch[c].normalized());
         const double least = std::cos(a) + mu * std::sin(a);
-        const double most = std::cos(a) - mu * std::sin(a);  // <= 0: any force from the least on
+        const double most = std::cos(a) - mu * std::sin(a);  // <= 0: the force has no upper bound
         const double found = f_n / (mass_of(0.5) * g / 2);
         if (most > 0)
           forces.between(found, 1 / least - 1e-9, 1 / most + 1e-9);
@@ -136,10 +136,10 @@ TEST(Groove, ADiscBetweenTwoWallsRestsAndItsForcesLieInTheInterval)
 
 TEST(Heap, ForcesDependOnTheOrderOfContactsAndVelocitiesDoNot)
 {
-  // A triangle of discs on fixed ones that touch: many more contacts than it needs to stand. What
-  // statics leaves open is known for every contact (heap_forces.hpp), and so is by how much a
-  // force may at most differ from one order to another: 19.7 weights. That it does differ is seen
-  // where the spread is a thousand times what the sums are known to.
+  // A triangle of discs on touching fixed ones: it has many more contacts than its stability needs.
+  // The range of each contact force that statics leaves open is known (heap_forces.hpp), and so is
+  // the largest possible difference between two orders of contacts: 19.7 weights. A difference
+  // counts if the spread is a thousand times the accuracy of the sums.
   std::vector<Disc> discs;
   const int base = 8;
   for (int row = 0; row < base; ++row)

@@ -1,5 +1,5 @@
-"""What the tools compute, by its definition: one loop over contacts, one over grains, slow and plain
-on purpose. All results are means per frame, by layer.
+"""The quantities that the tools compute, by their definitions: one loop over contacts, one over grains,
+slow and simple on purpose. All results are means per frame, by layer.
 
 Species a and b of a mixed contact are numbered by size, so that a < b and b is the larger one.
 """
@@ -8,16 +8,16 @@ import math
 
 import numpy as np
 
-POWER = 2.0  # Q of power:Q
+POWER = 2.0  # exponent Q of power:Q
 
 
 def layer_of(y, h):
-    """Layer n is [n h, (n+1) h); the first also takes all below."""
+    """Number of the layer at height y: layer n is [n h, (n+1) h); the first layer includes everything below."""
     return max(0, math.floor(y / h))
 
 
 def layers_of(run, frames, h):
-    """As many layers as the highest grain reaches."""
+    """Number of layers up to the top of the highest grain."""
     top = max((f["position"][:, 1] + run.radius)[run.mobile & f["present"]].max() for f in frames)
     return math.ceil(top / h)
 
@@ -27,7 +27,7 @@ def by_layer(layers, *shape):
 
 
 def shares_of_layers(low, high, h, layers):
-    """Of a stretch between two heights: which part of it lies in which layer."""
+    """Parts of a stretch between two heights that lie in each layer."""
     low, high = min(low, high), max(low, high)
     first, last = (min(layer_of(y, h), layers - 1) for y in (low, high))
     if first == last:
@@ -37,20 +37,20 @@ def shares_of_layers(low, high, h, layers):
 
 
 def contacts_of(run, frame):
-    """Contacts that bear a force, with what the definitions need of them."""
+    """Contacts with a force, with the quantities that the definitions need."""
     for force, branch, gap, i, j in zip(*(frame[name] for name in ("force", "branch", "gap", "i", "j"))):
         if not force.any():
             continue
         r_i, r_j = run.radius[i], run.radius[j] if j >= 0 else 0.0
-        part_i = 1.0 if j < 0 else (r_i + gap / 2) / (r_i + r_j + gap)  # up to the contact point
+        part_i = 1.0 if j < 0 else (r_i + gap / 2) / (r_i + r_j + gap)  # share of i by the contact point
         y_i = frame["position"][i][1]
         yield {"i": i, "j": j, "force": force, "whole": np.outer(force, branch), "part_i": part_i,
                "y_i": y_i, "y_j": y_i - branch[1], "y_contact": y_i - part_i * branch[1]}
 
 
 def pieces(run, c, assignment):
-    """(sum, from, to, weight): what of a contact's force (x) branch goes to which sum, along the
-    branch from the height of the grain to which it belongs."""
+    """(sum, from, to, weight): part of a contact's force (x) branch that is added to a sum, and the
+    heights between which this part lies along the branch, starting at its grain."""
     i, j, y_i, y_j = c["i"], c["j"], c["y_i"], c["y_j"]
     a = run.species[i]
     if not run.is_mobile(j):
@@ -87,7 +87,7 @@ def pieces(run, c, assignment):
 
 
 def contact_sums(run, frames, h, layers, assignment):
-    """Sums of force (x) branch, N m, and numbers of contacts at their contact points."""
+    """Sums of force (x) branch, N m, and numbers of contacts, by layer of the contact point."""
     sums, numbers = by_layer(layers, run.dimension, run.dimension), by_layer(layers)
     for f in frames:
         for c in contacts_of(run, f):
@@ -106,8 +106,8 @@ def contact_sums(run, frames, h, layers, assignment):
 
 
 def partial_stresses(run, sums, h, share_of_larger):
-    """sigma^nu = (A + its shares of mixed contacts + A_b)/V, by species; `share_of_larger` names the
-    sum of what goes to the larger species of a pair."""
+    """sigma^nu = (A + its shares of mixed contacts + A_b)/V, by species; `share_of_larger` is the name of
+    the sum of the larger species' shares in mixed contacts."""
     stresses = []
     for s in range(run.species_count):
         total = sums[("A", s)] + sums[("A_b", s)]
@@ -122,7 +122,7 @@ def partial_stresses(run, sums, h, share_of_larger):
 
 
 def volumes(run, frames, h, layers):
-    """Of the mobile grains of each species, clipped at the layers' edges."""
+    """Area or volume of the mobile grains of each species, clipped at the edges of layers."""
     content = np.zeros((run.species_count, layers))
     for f in frames:
         for g in np.flatnonzero(run.mobile & f["present"]):
@@ -136,13 +136,13 @@ def volumes(run, frames, h, layers):
 
 
 def parts_of_kernel(y, h, layers, width):
-    """Of a Gaussian about a height, what lies in each layer; the outer ones take what is beyond them."""
+    """Part of a Gaussian about height y that lies in each layer; the outer layers include the tails."""
     below = [0.5 * math.erfc((y - n * h) / width / math.sqrt(2)) for n in range(1, layers)]
     return np.diff([0.0, *below, 1.0])
 
 
 def share_of_larger(rule, run, c):
-    """Of a mixed contact, by the words of the rule; `drop` has none."""
+    """Shares of a mixed contact by the definition of the rule; `drop` has none."""
     i, j, part = c["i"], c["j"], c["part_i"]
     r_large, r_small = run.radius[i], run.radius[j]
     if run.species[i] < run.species[j]:
@@ -152,8 +152,8 @@ def share_of_larger(rule, run, c):
 
 
 def forces_by_rule(run, frames, h, layers, rule, width):
-    """By species and layer, sums of force per frame: C = sum f [S(y) - S(cut)], beta = sum f S(cut) and
-    N = sum f S(y) of the contacts, as the rule cuts mixed ones; those with the base where they touch."""
+    """Sums of force per frame, by species and layer: C = sum f [S(y) - S(cut)], beta = sum f S(cut) and
+    N = sum f S(y) over contacts. The rule cuts mixed contacts; contacts with the base are cut where they touch."""
     shape = (run.species_count, layers, run.dimension)
     contact, interaction, at_centre = (np.zeros(shape) for _ in range(3))
     for f in frames:
@@ -189,14 +189,14 @@ def forces_by_rule(run, frames, h, layers, rule, width):
 
 
 def mobile_grains(run, frames):
-    """Number, height, and velocity and spin in one."""
+    """Number of the grain, its height, and its velocity and spin as one vector."""
     for f in frames:
         for g in np.flatnonzero(run.mobile & f["present"]):
             yield g, f["position"][g][1], np.append(f["velocity"][g], f["spin"][g])
 
 
 def mean_in_bins(run, frames, bin_height):
-    """By bin: mass, mean height, mean motion; of the bins that hold grains, from below."""
+    """By bin: mass, mean height, mean motion; only bins that contain grains, from below."""
     sums = {}
     for g, y, motion in mobile_grains(run, frames):
         one = run.mass[g] * np.concatenate(([1.0, y], motion))
@@ -206,8 +206,8 @@ def mean_in_bins(run, frames, bin_height):
 
 
 def profile(run, frames, h):
-    """Straight lines through one point per bin of at most half a d_S; beyond the outer points the
-    slope over the outer two bins."""
+    """Velocity profile: straight lines through one point per bin of at most half a d_S; beyond the outer
+    points, the slope between the outer two bins."""
     bin_height = h / math.ceil(h / (run.small_diameter / 2) - 1e-9)
     points = np.array([m[1:] for m in mean_in_bins(run, frames, bin_height).values()])
     heights = points[:, 0]
@@ -232,7 +232,7 @@ def layer_mean(run, frames, h):
 
 
 def in_mid_step(run, frames):
-    """Velocities and spins half a step before: less half of what the step's forces and torques gave."""
+    """Velocities and spins half a step earlier: minus half the change due to the step's forces and torques."""
     middle = []
     for f in frames:
         torque = np.zeros_like(f["spin"])
@@ -252,7 +252,7 @@ def in_mid_step(run, frames):
 
 
 def fluctuations(run, frames, h, layers, mean_at):
-    """sum m dv (x) dv and sum I dw^2, J; grains where their centres are."""
+    """sum m dv (x) dv and sum I dw^2, J; a grain belongs to the layer of its centre."""
     d = run.dimension
     kinetic, rotational = by_layer(layers, d, d), by_layer(layers)
     for g, y, motion in mobile_grains(run, frames):
@@ -265,7 +265,7 @@ def fluctuations(run, frames, h, layers, mean_at):
 
 
 def about_each_frame(run, frames, h, layers):
-    """About the mean of the layer in each frame."""
+    """Fluctuations about the mean of the layer in each frame."""
     kinetic, rotational = by_layer(layers, run.dimension, run.dimension), by_layer(layers)
     for f in frames:
         of_frame = fluctuations(run, [f], h, layers, layer_mean(run, [f], h))
@@ -276,9 +276,9 @@ def about_each_frame(run, frames, h, layers):
 
 
 def unbiased_fluctuations(run, frames, h, layers):
-    """Of each grain the mean of (v - v_j) (x) (v - v_k), weight m_j m_k, over all pairs of two others
-    of its layer and frame; sums of m and of I times that, masses, and the number of grains without
-    two others."""
+    """For each grain, the mean of (v - v_j) (x) (v - v_k) with weight m_j m_k over all pairs of two other
+    grains of its layer and frame. Returns the sums of m and of I times this mean, the masses, and the
+    number of grains without two others."""
     d = run.dimension
     kinetic, rotational = by_layer(layers, d, d), by_layer(layers)
     mass, left_out = by_layer(layers), by_layer(layers)
@@ -296,7 +296,7 @@ def unbiased_fluctuations(run, frames, h, layers):
                 m = np.array([one for one, _ in others])
                 away = np.array([one for _, one in others])
                 mean = m @ away
-                # All pairs j, k less those with j = k.
+                # All pairs j, k, except j = k.
                 products = np.outer(mean, mean) - np.einsum("j,ja,jb->ab", m**2, away, away)
                 products /= m.sum()**2 - (m**2).sum()
                 kinetic[s][n] += run.mass[g] * products[:d, :d] / len(frames)
@@ -306,9 +306,9 @@ def unbiased_fluctuations(run, frames, h, layers):
 
 
 def about_profile_of_others(run, frames, h, layers):
-    """About the profile through the bins that hold three grains, each bin without the grain itself; less
-    the covariance of that mean, from the scatter in its bins about lines with the slope between their
-    neighbours. Sums, masses and grains left out, as above."""
+    """Fluctuations about the profile through the bins with at least three grains, each bin without the grain
+    itself; minus the covariance of that mean, from the scatter in its bins about lines with the slope
+    between neighbouring bins. Returns sums, masses and the number of grains left out, as above."""
     d = run.dimension
     kinetic, rotational = by_layer(layers, d, d), by_layer(layers)
     mass, left_out = by_layer(layers), by_layer(layers)
@@ -320,7 +320,7 @@ def about_profile_of_others(run, frames, h, layers):
     full = sorted(b for b, of_bin in members.items() if len(of_bin) > 2)
 
     def line(b):
-        """Mass, height and motion of the grains of a bin."""
+        """Mass, height and motion of the grains in a bin."""
         m = np.array([run.mass[grains[k][0]] for k in b])
         return m, np.array([grains[k][1] for k in b]), np.array([grains[k][2] for k in b])
 
@@ -359,8 +359,9 @@ def about_profile_of_others(run, frames, h, layers):
 
 
 def coordination_and_force(run, frames, h, layers):
-    """z: contact ends per grain, both where the grain's centre is. f: mean modulus of the contacts
-    with at least one grain of the species, where they touch. The last entry is the whole bed."""
+    """z: contact ends per grain, both in the layer of the grain's centre. f: mean magnitude of the force of
+    contacts with at least one grain of the species, in the layer of the contact point. The last entry is
+    the whole bed."""
     shape = (run.species_count, layers)
     grains, ends, contacts, forces = (np.zeros(shape) for _ in range(4))
     for f in frames:

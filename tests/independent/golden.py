@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Whether the tables in tests/tools/expected, with which the tools' output is compared, hold the numbers
-that follow from three grains and from neutral contacts by hand: here, by their definitions, with no code of
-grseg and without reading what it printed.
+"""Checks the tables in tests/tools/expected, with which the tools' output is compared: they must contain the
+numbers that follow from three grains and from neutral contacts. These are computed here by their definitions,
+with no code of grseg and without reading its output.
 
 Usage: golden.py FOLDER
 
-The run of tests/three_grains.hpp: a large grain on a boundary grain, a small one on the large one; all
-frames are alike but for the place along x. Every number of a table must be computed here, to 1e-12.
+The run of tests/three_grains.hpp: a large grain on a boundary grain, a small one on the large one. Frames
+differ only in the position along x. Every number of a table must agree with this script to 1e-12.
 """
 import json
 import math
@@ -24,11 +24,11 @@ V = {"S": (0.3, -0.4), "L": (0.1, 0.2)}
 SPIN = {"S": -2.0, "L": 1.0}
 FORCE = {"S": (3e-6, 4e-6), "L": (1e-6, 2e-6)}
 GRAVITY = (3.8, -9.0)
-# Of the large grain from the small one above it and from the base below it: force, branch (m).
+# Contacts of the large grain with the small one above it and with the base below it: force (N), branch (m).
 MIXED = ((1e-4, -2e-4), (0.0, -0.0075))
 BASE = ((-3e-4, 1e-3), (0.0, 0.01))
 LENGTH, LAYER = 0.35, 0.02
-# Centre of mass, twice which is the height of the bed.
+# Centre of mass; the height of the bed is twice its height.
 BED = 2 * sum(MASS[k] * HEIGHT[k] for k in "SL") / sum(MASS.values())
 
 
@@ -44,16 +44,16 @@ ZERO = outer((0, 0), (0, 0))
 
 
 def contact_sums():
-    """Of grseg-stress: each contact whole, by pair; the large grain's part by its share."""
+    """Row of grseg-stress: each contact as a whole, by pair; the large grain's part by its share."""
     mixed, base = outer(*MIXED), outer(*BASE)
-    share = R["L"] / (R["L"] + R["S"])  # no gap, so that the contact point is there, too
+    share = R["L"] / (R["L"] + R["S"])  # there is no gap, so the contact point gives the same share
     row = {}
     for name in ("A_SS", "A_LL", "A_Sb", "F_Sb"):
         row |= tensor(name, ZERO, "N m")
     row |= tensor("M", mixed, "N m")
     for name in ("Msize", "Mcp"):
         row |= tensor(name, mixed, "N m", share)
-    row |= tensor("A_Lb", base, "N m", 0.5)  # up to the contact point: equal radii
+    row |= tensor("A_Lb", base, "N m", 0.5)  # up to the contact point: the radii are equal
     row |= tensor("F_Lb", base, "N m")
     row |= {"n_SS": 0, "n_LS": 1, "n_LL": 0, "n_Sb": 0, "n_Lb": 1}
     return row
@@ -88,7 +88,7 @@ def mean_flow():
 
 
 def kinetic(unbiased=False):
-    """About the layer's mean; the profile goes through both grains, so that nothing is left of it there."""
+    """Fluctuations about the layer's mean; the velocity profile passes through both grains, so none are left about it."""
     u, v, slope = mean_flow()
     spin = sum(MASS[k] * SPIN[k] for k in "SL") / sum(MASS.values())
     row = {"u[m/s]": u, "v[m/s]": v, "du_dy[1/s]": slope}
@@ -115,8 +115,8 @@ def kinetic(unbiased=False):
 
 
 def micro():
-    """Both contacts are vertical: cos 2 theta = -1, sin 2 theta = 0. Sliding is not known without
-    friction; strong contacts bear more than the mean of those between grains, here one."""
+    """Both contacts are vertical: cos 2 theta = -1, sin 2 theta = 0. Without a friction coefficient, sliding is
+    unknown. Strong contacts exceed the mean force of contacts between grains, of which there is one here."""
     row = areas() | {"grains_S": 1, "grains_L": 1, "ends_S": 1, "ends_L": 2, "ends_S_mixed": 1,
                      "ends_L_mixed": 1, "ends_S_base": 0, "ends_L_base": 1}
     for pair in ("SS", "LS", "LL", "Sb", "Lb"):
@@ -146,10 +146,10 @@ def segregation():
         w = V[k][1] - v
         row |= {f"w_{k}[m/s]": w, f"q_{k}[m/s]": part * w, f"w_{k}_error[m/s]": 0,
                 f"q_{k}_error[m/s]": 0, f"displacements_{k}": 0,
-                # The frames of a window are the same: no momentum is gained.
+                # All frames of a window are equal: no momentum is gained.
                 f"mass_{k}[kg]": MASS[k], f"mvv_{k}_yy[J]": MASS[k] * V[k][1]**2, f"gain_{k}_y[N]": 0}
     layers = windows(2, row)
-    # One layer, so that its composition is that of the bed: s = 0. s_r^2/s_0^2 of one grain each.
+    # There is one layer, so its composition is that of the bed: s = 0. s_r^2/s_0^2 for one grain of each species.
     total = sum(MASS.values())
     random = ((1 - phi) * MASS["L"] + phi * MASS["S"]) / total
     bed = {"yL[m]": HEIGHT["L"], "yS[m]": HEIGHT["S"], "height[m]": BED, "mixing": 1 / (1 - random)}
@@ -160,8 +160,8 @@ def segregation():
 
 
 class Smoothed:
-    """The part of a gaussian of width 2 mm that lies in a layer of 6 mm; the lowest layer has all below,
-    the highest all above."""
+    """Part of a Gaussian of width 2 mm that lies in a layer of 6 mm. The lowest layer includes everything below,
+    the highest layer everything above."""
     width, thickness, layers = 0.002, 0.006, 3
 
     def __init__(self, layer):
@@ -171,7 +171,7 @@ class Smoothed:
     def __call__(self, y):
         root = math.sqrt(2) * self.width
         low, high = (self.low - y) / root, (self.high - y) / root
-        if low > 0:  # the tail above loses no digits so
+        if low > 0:  # this form loses no digits in the upper tail
             return (math.erfc(low) - math.erfc(high)) / 2
         return (math.erfc(-high) - math.erfc(-low)) / 2
 
@@ -185,7 +185,7 @@ STEP = 1e-4
 
 
 def momentum_of_species(k, inside, volume):
-    """The terms of the balance, momentum_balance.hpp; contacts are cut where the grains touch."""
+    """Terms of the balance in momentum_balance.hpp; contacts are cut where the grains touch."""
     m, v, y, force = MASS[k], V[k], HEIGHT[k], FORCE[k]
     sign, cut = (1, 0.01) if k == "L" else (-1, 0.01)
     others = [(tuple(sign * f for f in MIXED[0]), cut)]
@@ -212,7 +212,7 @@ def momentum_of_species(k, inside, volume):
 
 
 def balance_terms(of, volume_unit="N/m^2"):
-    """The columns of both species."""
+    """Columns of both species."""
     row = {}
     total = sum(own["rho"] for own in of.values())
     mean = [sum(own["j"][a] for own in of.values()) / total for a in (0, 1)]
@@ -232,7 +232,7 @@ def balance_terms(of, volume_unit="N/m^2"):
 
 
 def driving_forces(of):
-    """By the definitions of driving_forces.hpp."""
+    """Forces by the definitions of driving_forces.hpp."""
     phi = of["L"]["rho"] / (of["L"]["rho"] + of["S"]["rho"])
     stress = {k: own["Sc"]["yy"] for k, own in of.items()}
     flux = {k: own["rho"] * V[k][1]**2 for k, own in of.items()}
@@ -270,7 +270,7 @@ def balance():
 
 
 def physics():
-    """The large grain's forces miss their balance by more than the small one's."""
+    """Residual of the large grain, whose forces are further from balance than the small grain's."""
     worst = 0
     for k, contacts in (("L", (MIXED[0], BASE[0])), ("S", ((-MIXED[0][0], -MIXED[0][1]),))):
         defect = [sum(f[axis] for f in contacts) + MASS[k] * GRAVITY[axis] - FORCE[k][axis]
@@ -305,10 +305,10 @@ class Neutral:
         return sum(w * v for w, v in zip(self.weight, values)) / sum(self.weight)
 
     def fit(self):
-        """What grseg-fit says of these layers, of equal frames."""
+        """Results of grseg-fit for these layers, with equal numbers of frames."""
         logs = [math.log(y / x) for x, y in zip(self.x, self.y)]
         s = math.exp(self.mean(logs))
-        # Straight line in the logarithms, weighted.
+        # Weighted straight line in the logarithms.
         u, v = [math.log(x) for x in self.x], [math.log(y) for y in self.y]
         mu, mv = self.mean(u), self.mean(v)
         a = (self.mean([(x - mu) * (y - mv) for x, y in zip(u, v)])
@@ -320,8 +320,8 @@ class Neutral:
 
 
 def line_over_share():
-    """p* = the sum of phi_L - psi_L without mixed contacts over their part of the whole; dB/dp that part over the
-    sum of phi_L phi_S."""
+    """p* is the sum of phi_L - psi_L without mixed contacts, divided by the sum of the mixed contacts' part of the
+    stress; dB/dp is the latter sum divided by the sum of phi_L phi_S."""
     part = sum(mixed / (small + large + mixed) for _, small, large, mixed in Neutral.points)
     missing = sum(p - large / (small + large + mixed) for p, small, large, mixed in Neutral.points)
     return {"p_zero": missing / part, "dB_dp": part / sum(p * (1 - p) for p, *_ in Neutral.points)}
@@ -343,7 +343,7 @@ def fit():
     by_size = Neutral(shares["size"]).fit()["B"]
     for rule, share in shares.items():
         own = Neutral(share).fit() | {"autocorrelation_time[windows]": 1, "effective_windows": 1}
-        if share is None:  # its stresses do not add up, so that it has no B
+        if share is None:  # the stresses do not add up to the total, so there is no B
             del own["B"], own["paper_B"]
         else:
             own |= {"share": share, "neutral": neutral_b(share), "B_minus_size": own["B"] - by_size}
@@ -385,7 +385,7 @@ def compare_headers(path, mine):
 
 
 def compare_numbers(path, rows, mine):
-    """Rows of grseg-fit, of its table or of JSON; what was not asked for may be missing."""
+    """Rows of grseg-fit, from its table or from JSON; rows that were not asked for may be missing."""
     for row in rows:
         key = row["rule"], row["quantity"]
         if key not in mine:
@@ -399,7 +399,7 @@ def compare_words(path, numbers):
     """B of each rule, p* and dB/dp to three digits."""
     lines = path.read_text().splitlines()
     line = line_over_share()
-    expected = [("B = 0 where", f"p* = {line['p_zero']:.3f} of every"), ("B = 0 where", f"dB/dp = {line['dB_dp']:.3f}")]
+    expected = [("B = 0 if", f"p* = {line['p_zero']:.3f} of every"), ("B = 0 if", f"dB/dp = {line['dB_dp']:.3f}")]
     for rule in dict.fromkeys(rule for rule, _ in numbers if rule != "-"):
         b = numbers.get((rule, "B"), NAN)
         expected.append((rule + " ", " - " if math.isnan(b) else f" {0.0 if abs(b) < 1e-9 else b:.3f} "))
@@ -425,8 +425,9 @@ def compare_physics(path, mine):
 
 
 def compare(path, mine):
-    """Numbers compared. Columns of text, and those that are NaN throughout, need not be computed. What is
-    0 may be round-off: of a fit the last digit of 1, of others that of the smallest energies."""
+    """Compares a table, and returns the number of numbers compared. Columns of text, and columns that are NaN
+    throughout, need not be computed. Zeros may be round-off: the last digit of 1 in fits, that of the smallest
+    energies in other tables."""
     round_off = 1e-15 if path.name.startswith("neutral") else 1e-24
     if path.name == "three-grains.balance.tsv":  # m/h times differences of 1; of the stresses, of velocities
         round_off = {"[N/m^2]": 5e-14, "[N/m]": 1e-18, "[1/s]": 1e-10}

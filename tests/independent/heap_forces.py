@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""The least and the largest normal force of each contact of the heap of case H19, in weights of a disc.
+"""Smallest and largest normal force of each contact in the heap of case H19, in weights of a disc.
 
-A triangle of eight rows of equal discs, the lowest row fixed; friction 0.5. Forces are not unique: all
-that balance every disc and its torque, push, and stay within Coulomb's cone are admissible. In two
-dimensions these are linear conditions, so that both ends of each force follow from a linear programme.
-Prints tests/hard_cases/heap_forces.hpp, for clang-format to lay out. Needs scipy, which no test needs.
+The heap is a triangle of eight rows of equal discs, the lowest row fixed; friction 0.5. Forces are not unique:
+all sets of forces that balance every disc and its torque, are repulsive, and obey Coulomb's law are admissible.
+In two dimensions these conditions are linear, so the bounds of each force follow from a linear programme.
+Prints tests/hard_cases/heap_forces.hpp, to be formatted by clang-format. Needs scipy, which no test needs.
 """
 import math
 
@@ -34,7 +34,7 @@ def main():
     contacts = [(i, j) for i in range(len(x)) for j in range(i + 1, len(x))
                 if j in mobile and abs(np.linalg.norm(x[i] - x[j]) - 1) < 1e-9]
 
-    # Unknown: normal force, friction of each contact. Three conditions for each disc.
+    # Unknowns: normal force and friction of each contact. Three conditions for each disc.
     balance, load = np.zeros((3 * len(mobile), 2 * len(contacts))), np.zeros(3 * len(mobile))
     load[1::3] = 1
     cone = np.zeros((2 * len(contacts), 2 * len(contacts)))
@@ -45,7 +45,7 @@ def main():
             if g in mobile:
                 row = 3 * mobile[g]
                 balance[row:row + 2, 2 * c:2 * c + 2] = sign * np.column_stack((n, t))
-                balance[row + 2, 2 * c + 1] = -0.5  # both discs are turned the same way
+                balance[row + 2, 2 * c + 1] = -0.5  # friction turns both discs in the same direction
         cone[2 * c:2 * c + 2, 2 * c:2 * c + 2] = [[-FRICTION, 1], [-FRICTION, -1]]
 
     print(HEAD)

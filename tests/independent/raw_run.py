@@ -1,4 +1,4 @@
-"""A few frames of a trajectory, straight from the file; with faults in them, if asked for."""
+"""A few frames of a trajectory, read directly from the file; with faults, if requested."""
 import math
 
 import h5py
@@ -55,7 +55,7 @@ class Run:
         return math.pi * r**2 if self.dimension == 2 else 4 / 3 * math.pi * r**3
 
     def volume_below(self, g, height):
-        """Of a grain, the part below a level `height` above its centre: a segment or a cap."""
+        """Part of a grain below a level `height` above its centre: area of a segment or volume of a cap."""
         r = self.radius[g]
         y = min(max(height, -r), r)
         if self.dimension == 2:
@@ -67,7 +67,7 @@ class Run:
 
 
 def exchanged(name, a, b):
-    """Components a and b of a vector of grains or contacts in each other's place."""
+    """Exchanges the components a and b of a vector of grains or contacts."""
     def put_into(run):
         for frame in run.frames:
             frame[name][:, [a, b]] = frame[name][:, [b, a]]
@@ -87,7 +87,7 @@ def transposed(run):
 
 
 def renumbered(number):
-    """Mobile grains of species s are taken for number(s, K)."""
+    """Mobile grains of species s are read as number(s, K)."""
     def put_into(run):
         k = run.species_count
         run.species[run.mobile] = [number(s, k) for s in run.species[run.mobile]]
@@ -95,7 +95,7 @@ def renumbered(number):
 
 
 def boundary_is_two(run):
-    """As before there were lists of species."""
+    """Species are read as in files without lists of species."""
     run.mobile &= run.species != 2
 
 
@@ -108,14 +108,14 @@ def inertia_of_discs(run):
 
 
 def present_at_the_origin(run):
-    """Absent grains, for which the file has NaN, are taken for grains at rest at 0."""
+    """Absent grains, for which the file has NaN, are read as grains at rest at 0."""
     for frame in run.frames:
         frame["present"][:] = True
         for name in ("position", "velocity", "spin"):
             frame[name] = np.nan_to_num(frame[name])
 
 
-# What a reader could get wrong, by dimension and by whether there are more than two species.
+# Possible errors of a reader, by dimension and for more than two species.
 FAULTS = {
     "x and y of forces exchanged": exchanged("force", 0, 1),
     "x and y of branches exchanged": exchanged("branch", 0, 1),

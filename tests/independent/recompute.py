@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Computes from the raw file, by the definitions and with no code of grseg, what the tools print.
+"""Computes the numbers that the tools print from the raw file, by their definitions and with no code of grseg.
 
 Usage: recompute.py BIN RUN.h5 SCENE.ini
 
@@ -10,8 +10,8 @@ grains, kinetic stresses about four means of the velocities after a step and in 
 coordination z and mean force f, divergence of stress and interaction of each species by five rules,
 by layer; then BIN/grseg-stress, grseg-kinetic, grseg-micro and grseg-balance on the same frames.
 Every number must agree to 1e-10 of the largest
-component of its tensor. Then faults are put into what is read here (raw_run.py), each of which must
-make a difference.
+component of its tensor. Then faults are put into the data read here (raw_run.py); each of them must
+cause a difference.
 """
 import itertools
 import math
@@ -42,8 +42,8 @@ class Difference(Exception):
 
 
 def compare(what, mine, tools, terms=0.0):
-    """Both agree to TOLERANCE of the largest component, or of the largest of the `terms` whose
-    difference they are, or both are NaN."""
+    """True if both numbers agree to TOLERANCE times the largest component, or times the largest of the `terms`
+    whose difference they are, or if both are NaN."""
     global compared
     mine, tools = np.asarray(mine, dtype=float), np.asarray(tools, dtype=float)
     compared += mine.size
@@ -63,7 +63,7 @@ def quotient(a, b):
 
 
 class Window:
-    """Some frames of a run, cut into layers of thickness h."""
+    """Some frames of a run, divided into layers of thickness h."""
 
     def __init__(self, run, frames, h, where):
         self.run, self.frames, self.h, self.where = run, frames, h, where
@@ -96,14 +96,14 @@ class Window:
                 name = columns.sum(key)
                 compare(f"{where}: {name}", sums[key][n], columns.tensor(row, name))
             for ends, number in numbers.items():
-                # One end: a contact with the base.
+                # Contacts with a single species: with the base.
                 name = columns.with_base(ends[0]) if len(ends) == 1 else columns.pair(*ends)
                 compare(f"{where}: n_{name}", number[n], row[f"n_{name}"])
         if assignment != "grain":
             self.check_stresses(rows, sums)
 
     def check_stresses(self, rows, sums):
-        """The stress of each species, by three rules, and of all, from the tool's columns."""
+        """Stress of each species under three rules, and total stress, from the tool's columns."""
         run, columns = self.run, self.columns
         for rule in ("Msize", "Mcp", "Mpower"):
             mine = by_definition.partial_stresses(run, sums, self.h, rule)
@@ -116,7 +116,7 @@ class Window:
                 compare(f"{self.place(n)}: sigma", sum(mine)[n], sum(tools), terms)
 
     def fluctuations(self, mean, frames):
-        """By the definition: K and Kr; about an unbiased mean also masses and grains left out."""
+        """Fluctuations by their definition: K and Kr; about an unbiased mean also masses and grains left out."""
         of = (self.run, frames, self.h, self.layers)
         if mean == "instant-unbiased":
             return by_definition.unbiased_fluctuations(*of)
@@ -134,7 +134,7 @@ class Window:
         if velocity == "middle":
             frames = by_definition.in_mid_step(self.run, frames)
         kinetic, rotational, *more = self.fluctuations(mean, frames)
-        # Where a grain is its own mean both have the square of round-off.
+        # If a grain is its own mean, both results are the square of round-off.
         of_rest, of_no_spin = by_definition.fluctuations(self.run, frames, self.h, self.layers,
                                                          lambda y: 0)
         for n, row in enumerate(rows):
@@ -177,7 +177,7 @@ class Window:
 
 
 def check(bin_folder, path, frames, layer, fault=None):
-    """Two windows, each of half of the frames."""
+    """Two windows, each with half of the frames."""
     run = Run(path, frames)
     half, h = len(frames) // 2, layer * run.small_diameter
     length = half * run.interval
@@ -205,8 +205,8 @@ def check(bin_folder, path, frames, layer, fault=None):
 
 
 def check_mid_step(path):
-    """In consecutive frames the velocity in the middle of a step is the mean of that stored before it and
-    after it, and so is the spin."""
+    """In consecutive frames, velocity and spin in the middle of a step are the means of the values stored before
+    and after it."""
     with h5py.File(path, "r") as f:
         steps = f["particles/grains/position/step"][:]
     pairs = [k for k in range(1, len(steps)) if steps[k] == steps[k - 1] + 1]

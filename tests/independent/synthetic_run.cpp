@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes a run of discs or spheres whose numbers obey no symmetry: oblique contacts of all pairs of
-// species, forces and velocities with all components, sizes that differ within a species. Of
-// mechanics only the balance of each grain holds.
+// Writes a run of discs or spheres without any symmetry: oblique contacts of all pairs of species,
+// forces and velocities with all components, sizes that differ within a species. The only law of
+// mechanics that it obeys is the force balance of each grain.
 // Usage: synthetic_run FILE DIMENSION NAME,NAME,... [changing]    species by increasing diameter;
 // changing: in each frame other mobile grains are absent
 #include "formats/core/frame.hpp"
@@ -96,7 +96,7 @@ class Synthetic {
   std::mt19937_64 random_{16};
 };
 
-/// Boundary grains first, then the species in turns.
+/// Adds boundary grains first, then the species in turn.
 template <int D>
 void Synthetic<D>::add_grains()
 {
@@ -123,7 +123,7 @@ Vector<D> Synthetic<D>::on_the_base()
   return x;
 }
 
-/// Touching a grain that has its place, in a random direction in which it stays above the base.
+/// Position of a grain that touches a placed one, in a random direction in which it stays above the base.
 template <int D>
 void Synthetic<D>::place_beside_another(std::size_t g, Frame<D>& f)
 {
@@ -145,7 +145,7 @@ void Synthetic<D>::place_beside_another(std::size_t g, Frame<D>& f)
   }
 }
 
-/// Pushes apart, with friction in any direction; one in eight bears no force.
+/// Random force: repulsive, with friction in any direction; one in eight is zero.
 template <int D>
 void Synthetic<D>::add_contact(std::size_t i, std::int32_t j, const Vector<D>& branch, double gap,
                                ContactList<D>& contacts)
@@ -158,7 +158,7 @@ void Synthetic<D>::add_contact(std::size_t i, std::int32_t j, const Vector<D>& b
   contacts.force.push_back(contacts.size() % 8 == 0 ? Vector<D>(Vector<D>::Zero()) : force);
 }
 
-/// Straight wall 0 is y = 0; the lowest grains touch it.
+/// Adds contacts of the lowest grains with straight wall 0, y = 0.
 template <int D>
 void Synthetic<D>::add_walls(Frame<D>& f)
 {
@@ -169,7 +169,7 @@ void Synthetic<D>::add_walls(Frame<D>& f)
   }
 }
 
-/// Chooses mobile grains and removes their contacts.
+/// Makes randomly chosen mobile grains absent and removes their contacts.
 template <int D>
 std::vector<bool> Synthetic<D>::remove_some(Frame<D>& f)
 {
@@ -189,7 +189,7 @@ std::vector<bool> Synthetic<D>::remove_some(Frame<D>& f)
   return absent;
 }
 
-/// A sheared flow with fluctuations, and forces of grains that balance those of the contacts.
+/// A sheared flow with fluctuations; forces on grains balance those of contacts.
 template <int D>
 void Synthetic<D>::add_motion(Frame<D>& f)
 {

@@ -1,4 +1,4 @@
-"""Tables of the tools, and how their columns are called."""
+"""Tables of the tools, and the names of their columns."""
 import functools
 import itertools
 import subprocess
@@ -25,7 +25,7 @@ def table(tool, path, options):
 
 
 class Columns:
-    """Letters for small and large grains, names for all others."""
+    """Names of species in columns: letters for small and large grains, full names for all others."""
 
     def __init__(self, run):
         self.axes = "xyz"[:run.dimension]
@@ -37,7 +37,7 @@ class Columns:
         return np.array([[row[f"{name}_{a}{b}"] for b in self.axes] for a in self.axes])
 
     def sum(self, key):
-        """The column of a sum of contacts: ("A", 0), ("Msize", 0, 1), ("F_b", 1)."""
+        """Name of the column of a sum over contacts: ("A", 0), ("Msize", 0, 1), ("F_b", 1)."""
         kind, *species = key
         names = [self.names[s] for s in species]
         if kind in ("A_b", "F_b"):
@@ -47,7 +47,7 @@ class Columns:
         return f"{kind}_{'+'.join(names)}"
 
     def pair(self, *species):
-        """Of a contact in grseg-micro and of its number, one species: with the base if `base`."""
+        """Name of a pair in grseg-micro; one species means a contact with the base if `base`."""
         names = [self.names[s] for s in species]
         if not self.two:
             return names[0] if len(set(species)) == 1 else "+".join(names)
@@ -57,13 +57,13 @@ class Columns:
         return f"{self.names[species]}{'b' if self.two else '+b'}"
 
     def pairs_of(self, species):
-        """All kinds of contacts that a species has."""
+        """All pairs to which a species belongs."""
         others = [self.pair(*sorted((species, s))) for s in range(len(self.names))]
         return others + [self.with_base(species)]
 
 
 def keys(run, assignment):
-    """All sums that a table has."""
+    """Keys of all sums in a table."""
     species = range(run.species_count)
     single = ["A", "A_b", "F_b"] + ["H"] * (assignment == "grain")
     mixed = ["M", "Msize", "Mcp", "Mpower"] + ["ML", "MS"] * (assignment == "grain")

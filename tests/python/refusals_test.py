@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What grseg.py says of files that are damaged, unfinished or none of grseg, and of wrong arguments: the file, the
-place and the remedy, in one sentence.
+"""Messages of grseg.py about damaged, unfinished and foreign files, and about wrong arguments: each names the file,
+the place and the remedy in one sentence.
 Usage: refusals_test.py SOURCE SYNTHETIC_RUN
 """
 import os
@@ -42,7 +42,7 @@ def read_all(path, **how):
 
 
 def changed(change, path=RUN):
-    """A copy of a run to which something has been done."""
+    """A copy of a run with the change `damage`."""
     shutil.copyfile(path, "changed.h5")
     with h5py.File("changed.h5", "r+") as file:
         change(file)
@@ -70,18 +70,18 @@ def with_version(module, version):
 def files_that_are_not_runs():
     require(r"^nowhere.h5: No such file or directory$", lambda: grseg.Run("nowhere.h5"))
     for name in ("neutral-sums.tsv", "truncated.h5"):
-        require(rf"{name}: is not an HDF5 file, or is truncated or damaged; take a copy that is whole$",
+        require(rf"{name}: is not an HDF5 file, or is truncated or damaged; use an intact copy$",
                 lambda name=name: grseg.Run(os.path.join(inputs, name)))
     with h5py.File("foreign.h5", "w") as file:
         file["particles/all/position"] = np.zeros(3)
-    require(r"^foreign.h5: /h5md/modules/grseg has no version: not a run of grseg, or damaged; grseg-import makes",
+    require(r"^foreign.h5: /h5md/modules/grseg has no version: not a run of grseg, or damaged; grseg-import converts",
             lambda: grseg.Run("foreign.h5"))
-    require(r"^changed.h5: /h5md/modules/grseg has version 2.0, and this grseg.py reads 1.0; take the grseg.py of the grseg",
+    require(r"^changed.h5: /h5md/modules/grseg has version 2.0, and this grseg.py reads 1.0; use the grseg.py of the grseg",
             changed(with_version("h5md/modules/grseg", np.array([2, 0]))))
 
 
 def in_another_process(path):
-    """What it says there: HDF5's locks are between processes."""
+    """Message in another process, because HDF5's locks are between processes."""
     said = subprocess.run([sys.executable, "-B", "-c", "import grseg, sys\ntry: grseg.Run(sys.argv[1])\n"
                            "except grseg.Error as error: print(error, end='')", path], capture_output=True, text=True,
                           env=os.environ | {"PYTHONPATH": sys.path[0]}, check=True)
@@ -89,7 +89,7 @@ def in_another_process(path):
 
 
 def runs_that_have_not_ended():
-    require(r"^changed.h5: the run has not ended, or its end was lost: give unfinished=True to read the frames",
+    require(r"^changed.h5: the run has not ended, or its end was lost: pass unfinished=True to read the frames",
             changed(put("grseg/seal", slice(None), 0)))
     with grseg.Run("changed.h5", unfinished=True) as run:
         assert not run.finished and len(run) == 4
@@ -107,7 +107,7 @@ def damaged_runs():
     for path in ("grseg/contacts/branch", "particles/grains/position/value", "particles/grains/radius",
                  "parameters/step", "grseg/seal", "grseg/species/name"):
         require(rf"^changed.h5: /{path} is missing: not a run of grseg, or damaged", changed(without(path)))
-    require(r"^changed.h5: /grseg/seal names other frames than the file holds",
+    require(r"^changed.h5: /grseg/seal does not agree with the frames: the file is damaged",
             changed(lambda file: file["grseg/contacts/offset"].resize((4,))))
     require(r"^changed.h5: /grseg/contacts/offset does not increase", changed(put("grseg/contacts/offset", 2, 9)))
     require(r"^changed.h5: /particles/grains/velocity/value has the shape \(3, 3, 2\) and should have \(4, 3, 2\)",
@@ -122,7 +122,7 @@ def damaged_frames():
     for name, value in (("i", 3), ("i", 2), ("i", -1), ("j", 3)):
         require(rf"^changed.h5: /grseg/contacts/{name} is {value} {place}",
                 changed(put(f"grseg/contacts/{name}", 5, value)))
-    require(r"/grseg/contacts/force is not a finite number in contact 0 of frame 2; the frame is damaged: take a copy",
+    require(r"/grseg/contacts/force is not a finite number in contact 0 of frame 2; the frame is damaged: use an intact",
             lambda: read_all(os.path.join(inputs, "nan.h5"), unfinished=True))
     require(r"/particles/grains/velocity/value is not a finite number in grain 1 of frame 3",
             changed(put("particles/grains/velocity/value", (3, 1), np.nan)))
@@ -160,15 +160,15 @@ def wrong_arguments():
     with grseg.Run(RUN) as run:
         require("'4dX' is not a length: give metres, or a text such as 20mm, 4dS or 2dL", lambda: run.metres("4dX"),
                 ValueError)
-        require("no window of 1.25 s is filled: frames used reach from 0 s to 0.2 s; choose a shorter",
+        require("no window of 1.25 s is filled: the frames used are from 0 s to 0.2 s; choose a shorter",
                 run.contact_sums)
         require("a window of 0.01 s is shorter than the 0.05 s between the frames", lambda: run.windows(0.01), ValueError)
-        require("mean = 'instant': profile or layer; grseg-kinetic knows more",
+        require("mean = 'instant': write profile or layer; grseg-kinetic has more choices",
                 lambda: run.kinetic_sums(mean="instant"), ValueError)
         require("no frame lies between begin and end; the run goes from 0 s to 0.15 s", lambda: run.windows("all", begin=3))
         sums = run.contact_sums(window=0.1)
         all_frames = run.contact_sums(window="all")
-        require("three-grains-closed.h5 and .*three-grains-closed.h5 both hold the time from 0 s of the same run; leave one",
+        require("three-grains-closed.h5 and .*three-grains-closed.h5 both contain the time from 0 s of the same run; leave one",
                 lambda: grseg.Points([sums, all_frames]))
     for rule in ("sizes", "uniform", "uniform:2", "power:x", "half:1"):
         require(f"'{rule}' is not a rule: size, contact-point", lambda rule=rule: grseg.partial_stress(sums, rule),
@@ -185,7 +185,7 @@ def wrong_tables():
     head = "# program: grseg-stress 0.2.0\nt0[s]\tt1[s]\n"
     require("table.tsv: the last line is incomplete: the table is truncated", read(head + "0\t1"))
     require("table.tsv: does not end with the line '# end: ...' of every table: it is truncated", read(head + "0\t1\n"))
-    require("table.tsv: has 1 rows, but its last line names another number: it is damaged",
+    require("table.tsv: has 1 rows, but its last line states another number: it is damaged",
             read(head + "0\t1\n# end: 2 rows, xxh3 0\n"))
     require("table.tsv: has a row without a number in each column",
             read(head + "0\n# end: 1 rows, xxh3 0\n"))
@@ -198,7 +198,7 @@ def wrong_tables():
     require("only-small-sums.tsv: no layer and window passes the filters",
             lambda: grseg.Points(grseg.read_table(os.path.join(inputs, "only-small-sums.tsv"))))
     with mock.patch.dict(sys.modules, pandas=None):
-        require("^Table.to_pandas needs pandas, which is not installed: take Debian's python3-pandas, or pip install pandas$",
+        require("^Table.to_pandas needs pandas, which is not installed: install Debian's python3-pandas, or pip install pandas$",
                 neutral.to_pandas, ImportError)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""grseg.py on a file known by heart: what tests/three_grains.hpp writes, and neutral contacts, with the values
-that follow by hand.
+"""grseg.py on files whose numbers are known: the run that tests/three_grains.hpp writes, and neutral contacts, with
+values computed by hand.
 Usage: three_grains_test.py SOURCE
 """
 import math
@@ -47,7 +47,7 @@ def a_frame_holds_its_grains_and_contacts(run):
     assert len(contacts) == 2 and list(contacts.i) == [0, 0] and list(contacts.j) == [1, 2]
     assert list(contacts.kind_i) == [1, 1] and list(contacts.kind_j) == [0, 2]
     assert is_near(contacts.force, [[1e-4, -2e-4], [-3e-4, 1e-3]])
-    assert is_near(contacts.share_i, [2 / 3, 1 / 2])  # 5 mm of 7.5 mm, 5 mm of 10 mm
+    assert is_near(contacts.share_i, [2 / 3, 1 / 2])  # shares 5 mm/7.5 mm and 5 mm/10 mm
     assert is_near(contacts.point, [[0.052, 0.010], [0.052, 0.0]])
 
 
@@ -57,7 +57,7 @@ def frames_begin_at_a_time_and_end_before_one(run):
     assert [f.number for f in run.frames(stride=3)] == [0, 3]
     assert [f.position[0, 0] for f in run.frames()] == [f.position[0, 0] for f in (run[k] for k in range(4))]
     assert [list(w.frames) for w in run.windows(0.1)] == [[0, 1], [2, 3]]
-    assert [list(w.frames) for w in run.windows(0.15)] == [[0, 1, 2]]  # the second is not full
+    assert [list(w.frames) for w in run.windows(0.15)] == [[0, 1, 2]]  # the second window is incomplete
 
 
 def sums_are_force_times_branch(run):
@@ -87,15 +87,15 @@ def rules_share_the_mixed_contact(run):
 
 
 def fluctuations_are_about_the_mean_of_the_layer(run):
-    """m = pi r^2: the large grain's velocity departs from the mean by 1/5 of the difference, the small one's by 4/5."""
+    """m = pi r^2: the large grain's velocity differs from the mean by 1/5 of the difference, the small grain's by 4/5."""
     kinetic = run.kinetic_sums(window=0.1, mean="layer")
     m_large, m_small, difference = math.pi * 25e-6, math.pi * 6.25e-6, np.array([0.2, -0.6])
     square = np.outer(difference, difference)
     assert is_near(kinetic.tensor("K_L")[0], m_large * square / 25)
     assert is_near(kinetic.tensor("K_S")[0], m_small * square * 16 / 25)
-    assert is_near(kinetic["Kr_L"], m_large * 0.005**2 / 2 * 0.6**2)  # of spins 1 and -2
+    assert is_near(kinetic["Kr_L"], m_large * 0.005**2 / 2 * 0.6**2)  # from spins 1 and -2
     assert is_near(kinetic["u"], 0.1 + 0.2 / 5) and is_near(kinetic["du_dy"], 0.2 / 0.0075)
-    # About a line through two grains nothing is left.
+    # Relative to a line through two grains nothing is left.
     assert abs(run.kinetic_sums(window=0.1).tensor("K_S")).max() < 1e-30
 
 
@@ -107,7 +107,7 @@ def a_table_becomes_a_data_frame(run):
     assert frame.attrs["input"] == f"xxh3 {run.digest}" and frame.attrs["history"] == sums.history
     assert frame.attrs["units"]["A_LL_yy"] == "N m" and frame.attrs["layer"] == sums.header["layer"]
     frame["t0"] += 1
-    assert sums["t0"].min() < 1  # the table keeps its own
+    assert sums["t0"].min() < 1  # the original table is unchanged
 
 
 def neutral_contacts_have_no_b_by_size():
@@ -120,14 +120,14 @@ def neutral_contacts_have_no_b_by_size():
         q = 1 - p
         logs = [math.log((16 + 12 * q) / (2 + 12 * p) / 2), math.log((10 + 15 * q) / (5 + 15 * p)),
                 math.log((5 + 15 * q) / (10 + 15 * p) * 2)]
-        # Of the large grains 2, 3 and 4 quarters, of the small ones 4, 3 and 2: the rarer are 2, 3 and 4.
+        # Large grains have 2, 3 and 4 quarters, small ones 4, 3 and 2: the weights of the rarer species are 2, 3 and 4.
         s = math.exp(np.average(logs, weights=[2, 3, 4]))
         fit = points.fit(f"uniform:{p}")
         assert is_near([fit.paper_s, fit.paper_B, fit.share], [s, (1 - s + (1 - s) / s) / 2, p])
         of_large = np.array([2 + 12 * p, 5 + 15 * p, 10 + 15 * p]) / 30
         assert is_near(fit.B, (of_large - phi).sum() / (phi * (1 - phi)).sum())
         assert is_near(points.b_of_p([p]), fit.B)
-    # Of the whole stress, 30, mixed contacts bear 12, 15 and 15.
+    # Of the total stress, 30, mixed contacts carry 12, 15 and 15.
     slope = (12 + 15 + 15) / 30 / (phi * (1 - phi)).sum()
     assert np.allclose([points.fit().p_zero, points.fit().dB_dp], [2 / 3, slope], rtol=1e-14)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""grseg.py against the tools: tables of sums, and what rules make of them, to 1e-12 of the largest number that a
-column is made of, and intervals, to 1e-9. Then faults are put into grseg.py, each of which must show.
+"""grseg.py compared with the tools: tables of sums and results under rules, to 1e-12 of the largest number from
+which a column is computed, and intervals, to 1e-9. Then faults are put into grseg.py; each must be detected.
 Usage: tools_test.py SOURCE BIN SYNTHETIC_RUN
 
 Runs: the sample of discs; imports of spheres and of discs; three grains in a file that was closed and in one that was not; runs without
@@ -12,11 +12,13 @@ import csv
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 from unittest import mock
 
+import h5py
 import numpy as np
 
 sys.dont_write_bytecode = True
@@ -34,7 +36,7 @@ class Difference(Exception):
 
 
 def agree(what, mine, tools, scale=0.0, tolerance=TOLERANCE):
-    """To `tolerance` of the largest of these numbers, or of `scale` where they are differences of larger ones."""
+    """Compares to `tolerance` times the largest of these numbers, or times `scale` if they are differences of larger numbers."""
     global compared, largest
     mine, tools = np.asarray(mine, float), np.asarray(tools, float)
     if mine.shape != tools.shape or (np.isnan(mine) != np.isnan(tools)).any():
@@ -53,14 +55,14 @@ def run_tool(tool, *arguments):
 
 
 def table_of(tool, path, window, *options):
-    """Of the tool, with options of grseg.py: {"layer": "3dS"}."""
+    """Table of the tool, with options as for grseg.py: {"layer": "3dS"}."""
     words = [word for name, value in window.items() for word in (f"--{name}", value)]
     run_tool(tool, path, *words, *options, "-o", f"{tool}.tsv")
     return grseg.read_table(f"{tool}.tsv")
 
 
 def compare_tables(what, mine, tools, scale_of=lambda column: 0.0):
-    """All columns of `mine`, which the tool's table has under the same names, with the same units."""
+    """Compares all columns of `mine` with the tool's table, which has the same names and units."""
     for column in ("t0", "t1", "y0", "y1", "frames", "V", *mine.columns):
         if mine.units[column] != tools.units[column]:
             raise Difference(f"{what}: {column}[{mine.units[column]}], [{tools.units[column]}] by the tool")
@@ -73,7 +75,7 @@ def check_contact_sums(run, window):
     if mine.columns != tools.columns:
         raise Difference(f"{run.path}: columns {mine.columns} and, by the tool, {tools.columns}")
     largest_of = {column.rsplit("_", 1)[0]: 0.0 for column in mine.columns}
-    for column in tools.columns:  # a tensor has one scale, and grains come by the volume of the layer
+    for column in tools.columns:  # a tensor has one scale, and numbers of grains scale with the volume of the layer
         stem = column.rsplit("_", 1)[0]
         largest_of[stem] = max(largest_of[stem], abs(tools[column]).max())
     largest_of |= dict.fromkeys(("area", "volume"), tools["V"].max())
@@ -91,14 +93,14 @@ def check_kinetic_sums(run, window):
         speed = max(abs(frame.velocity[frame.present]).max() for frame in run.frames())
         spin = max(abs(frame.angular_velocity[frame.present]).max() for frame in run.frames()) * run.radius.max()
         mass = max(abs(mine[column]).max() for column in mine.columns if column.startswith("mass"))
-        # About a mean little is left of these.
+        # Relative to a mean flow little is left of these.
         compare_tables(f"{run.path} about the {mean}", mine, tools, lambda column: {
             "K": mass * speed**2, "Kr": mass * spin**2, "u": speed, "v": speed, "du": speed / run.small_diameter,
         }.get(column.split("_")[0], 0.0))
 
 
 def check_contacts(run):
-    """Contacts per frame of the smallest species and of the others, and all forces, of the whole bed."""
+    """Compares contacts per frame of the smallest species and of the others, and all forces, for the whole bed."""
     grouped = ("--group", "S=1", "--group", "L=2,3") if len(run.species) > 2 else ()
     tools = table_of("micro", run.path, {"window": "all", "layer": "2dS"}, *grouped)
     bed = dict(zip(tools.columns, tools.values[-1]))
@@ -114,7 +116,7 @@ def check_contacts(run):
 
 
 def rows_of(path):
-    """Of a table of grseg-fit, and its header."""
+    """Rows of a table of grseg-fit, and its header."""
     with open(path) as file:
         lines = file.read().splitlines()
     header = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
@@ -122,16 +124,16 @@ def rows_of(path):
 
 
 def numbers_of(path):
-    """{rule: {quantity: value}} of all flows together; those of no rule belong to every one."""
+    """{rule: {quantity: value}} of all flows together; numbers without a rule are added to every rule."""
     found = collections.defaultdict(dict)
     for row in rows_of(path)[0]:
-        found[row["rule"]][row["quantity"]] = float(row["value"])  # of several flows those of all stand last
+        found[row["rule"]][row["quantity"]] = float(row["value"])  # for several flows, the rows of all flows are last
     common = found.pop("-")
     return {rule: {**common, **numbers} for rule, numbers in found.items()}
 
 
 def check_fits(paths, options=None, **filters):
-    """Every number of every rule, B(p) and p*; OPTIONS are the filters as grseg-fit calls them."""
+    """Compares every number of every rule, B(p) and p*; OPTIONS are the filters of grseg-fit."""
     tables, options = [grseg.read_table(path) for path in paths], options or []
     points = grseg.Points(tables, **filters)
     fit = [*paths, "--bootstrap", "0", *options, "-o", "fit.tsv"]
@@ -160,7 +162,7 @@ def check_kinetic_fit(path):
 
 
 def by_hand(path, name, *changes):
-    """A copy of a table that no tool vouches for, with some words of its header changed."""
+    """A copy of a table without the final line of a tool, with some words of its header changed."""
     with open(path) as file:
         text = "".join(line for line in file if not line.startswith(("# program: ", "# end: ")))
     for pattern, to in changes:
@@ -171,7 +173,7 @@ def by_hand(path, name, *changes):
 
 
 def make_tables_for_intervals(sample):
-    """Two halves of the sample as if of two runs, or of two flows; windows that overlap; windows in which nothing moves."""
+    """Two halves of the sample as if from two runs, or two flows; windows that overlap; windows without motion."""
     run_tool("stress", sample, "--window", "0.1", "--end", "10", "-o", "short.tsv")
     run_tool("stress", sample, "--window", "1", "--begin", "10.5", "-o", "between.tsv")
     run_tool("stress", "spheres.h5", "--window", "0.4", "--layer", "2dS", "-o", "of-spheres.tsv")
@@ -187,12 +189,12 @@ def make_tables_for_intervals(sample):
         file.writelines(f"{t}\t{t + 1}\t{rest}" for t in (10, 11, 12) for rest in last)
 
 
-# Tables, and options of grseg.py; what the interval of B is over.
+# Tables and options of grseg.py, with the expected word for what the interval of B is over.
 INTERVALS = (
     (["short.tsv"], {}, "windows"),
     (["first.tsv", "second.tsv"], {"component": "pressure"}, "windows"),
     (["first.tsv"], {"end": 2}, "windows"),
-    (["first.tsv"], {"end": 1}, "windows"),  # one is too few
+    (["first.tsv"], {"end": 1}, "windows"),  # one window is too few
     (["kinetic.tsv"], {"quantity": "kinetic", "heights": "all"}, "windows"),
     (["classes.tsv"], {"pair": "c1,c3"}, "windows"),
     (["grain.tsv"], {}, "windows"),
@@ -205,7 +207,7 @@ INTERVALS = (
 
 
 def intervals_of_tool():
-    """The cases with the rows of grseg-fit for each."""
+    """The cases, each with the rows of grseg-fit."""
     cases = []
     for paths, filters, over in INTERVALS:
         words = [word for name, value in filters.items() for word in (f"--{name}", value)]
@@ -248,7 +250,7 @@ def make_imports():
 
 
 def make_synthetic():
-    """Their names, those with most traps last."""
+    """Makes the runs; returns their names, the most difficult last."""
     for number, words in enumerate((("2", "small,large"), ("3", "small,large"), ("2", "fine,middle,coarse"),
                                     ("3", "fine,middle,coarse", "changing"))):
         subprocess.run([synthetic, f"synthetic-{number}.h5", *words], check=True)
@@ -288,13 +290,27 @@ def check_all_fits(sample):
 
 
 def check_runs():
-    """Which tables are of one run, as grseg-fit counts them."""
+    """Groups of tables of one run, as grseg-fit finds them."""
     names = ["first.tsv", "second.tsv"]
     if set(grseg.Points([grseg.read_table(name) for name in names]).run) != {0}:
         raise Difference("first.tsv and second.tsv are of one run")
     run_tool("fit", *names, "--bootstrap", "0", "-o", "fit.tsv")
     if rows_of("fit.tsv")[1]["runs"] != "1":
         raise Difference("grseg-fit counts first.tsv and second.tsv as two runs")
+
+
+def check_beds(sample):
+    """The line "bed" of a run that was restarted with these options."""
+    shutil.copyfile(sample, "restarted.h5")
+    for options in ("--perturb 1e-6 --threads 2", "-- 3 --perturb 1e-6", "--=x --seed-perturbation=2 4 5"):
+        with h5py.File("restarted.h5", "r+") as file:
+            del file["parameters/history"]
+            file["parameters/history"] = np.bytes_(f"grseg-sim chute.ini\ngrseg-sim --restart run.chk {options} (from t = 2 s)\n")
+        tools = table_of("stress", "restarted.h5", {"window": 5}, "--trust")
+        with grseg.Run("restarted.h5") as run:
+            mine = grseg._bed_line(run)
+        if mine != tools.header["bed"]:
+            raise Difference(f"a restart with {options}: {mine} and, by the tool, {tools.header['bed']}")
 
 
 def no_shares(run, i, j, gap):
@@ -372,6 +388,7 @@ def main():
             check_run("discs.h5", {"layer": "2dS", "window": 0.03})
             check_run(sample, {"window": 5, "begin": 3.3, "end": 14}, {"layer": "1.5dS", "window": 2.5, "stride": 3})
             check_all_fits(sample)
+            check_beds(sample)
         except (Difference, grseg.Error) as error:
             sys.exit(str(error))
         for path in runs[1:3]:

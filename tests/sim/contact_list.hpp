@@ -11,14 +11,14 @@
 #include <span>
 #include <vector>
 
-/// Contacts in a plain list, as tests write them down: packed into blocks, solved, and judged.
+/// Contacts in a plain list, as tests write them: packed into blocks, solved, and checked.
 namespace grseg {
 
-/// Contacts sorted by colour into blocks. First-fit colours in the order of the contacts: a contact
-/// takes the first colour that neither of its mobile bodies has yet, so the same contacts always
-/// get the same colours. Immobile bodies (inverse mass 0) take no colour, since what is written to
-/// them is what was there. Unused lanes of a colour's last block hold a neutral contact (masses and
-/// impulses 0) of the idle body with itself.
+/// Contacts sorted by colour into blocks. Colours are assigned by first fit in the order of the
+/// contacts: a contact gets the first colour that neither of its mobile bodies has yet, so the same
+/// contacts always get the same colours. Immobile bodies (inverse mass 0) do not use up colours,
+/// because their values are written back unchanged. Unused lanes of a colour's last block contain a
+/// neutral contact (masses and impulses 0) of the idle body with itself.
 class ContactBlocks {
  public:
   /// `idle` is the index of an immobile entry of `motion`.
@@ -28,10 +28,10 @@ class ContactBlocks {
 
   std::span<ContactBlock> blocks() { return blocks_; }
   BlockRuns runs() { return {blocks_, ends_}; }
-  /// Where each contact went: 8 * block + lane. Sweeps relax contacts in this order.
+  /// Position of each contact: 8 * block + lane. Sweeps relax contacts in this order.
   std::span<const std::uint32_t> slots() const { return slot_; }
-  /// Number of contacts of each colour; the last entry counts those left without a colour because
-  /// a body has more contacts than there are colours. Each of these has a block to itself.
+  /// Number of contacts of each colour. The last entry counts contacts without a colour, because a
+  /// body has more contacts than there are colours. Each of these has its own block.
   static constexpr std::size_t colours = 64;
   std::span<const std::uint32_t> sizes() const { return sizes_; }
 
@@ -40,12 +40,12 @@ class ContactBlocks {
   void lay_out(std::size_t idle);
 
   std::vector<ContactBlock> blocks_;
-  std::vector<std::uint32_t> ends_;   // of a colour's blocks, and of each block left without
-  std::vector<std::uint64_t> taken_;  // per body, a bit per colour
-  std::vector<std::uint8_t> colour_;  // per contact
-  std::vector<std::uint32_t> slot_;   // per contact
+  std::vector<std::uint32_t> ends_;   // ends of the blocks of a colour, and of each block without
+  std::vector<std::uint64_t> taken_;  // by body, one bit per colour
+  std::vector<std::uint8_t> colour_;  // colour by contact
+  std::vector<std::uint32_t> slot_;   // slot by contact
   std::array<std::uint32_t, colours + 1> sizes_{};
-  std::array<std::uint32_t, colours + 1> next_{};  // free slot of each colour
+  std::array<std::uint32_t, colours + 1> next_{};  // next free slot of each colour
 };
 
 inline ContactBlock neutral_block(std::size_t idle)
@@ -128,7 +128,7 @@ inline void ContactBlocks::lay_out(std::size_t idle)
   for (auto b = next_[colours] / block_lanes; b < count; ++b) blocks_[b] = neutral;
 }
 
-/// solve_contacts() for contacts in any order.
+/// Calls solve_contacts() for contacts in any order.
 inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
                                    double friction, Effects effects, const SolverSettings& settings,
                                    const ReferenceRange& range)
@@ -148,8 +148,8 @@ inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<M
   return report;
 }
 
-/// The largest violation (m/s) of Signorini's and Coulomb's conditions by any state, whichever
-/// solver made it: the change that relaxing a contact alone would make.
+/// Largest violation (m/s) of Signorini's and Coulomb's conditions, for a state from any solver:
+/// the change that relaxing a single contact would make.
 inline double contact_residual(const std::vector<Contact>& contacts,
                                const std::vector<Motion>& motion, double friction, Effects effects)
 {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-/// A chute of some fifty grains, deposited in an instant, tilted by 25 degrees.
+/// A chute of about fifty grains, deposited in an instant, tilted by 25 degrees.
 namespace grseg::small_chute {
 
-/// The paper's chute but for what `words` say; what comes first wins.
+/// Scene of Staron & Phillips' chute, changed by `words`; the first list with a key takes precedence.
 inline Scene scene_of(const std::vector<std::vector<std::string>>& words)
 {
   namespace po = boost::program_options;
@@ -29,7 +29,7 @@ inline Scene paper_scene(const std::vector<std::string>& words = {})
   return scene_of({words});
 }
 
-/// `words` win over the small chute's own.
+/// Scene of the small chute; `words` take precedence over its own keys.
 inline Scene scene(const std::vector<std::string>& words = {})
 {
   const std::vector<std::string> own{"--depth", "8dS",     "--length", "8dL",        "--phi-large",

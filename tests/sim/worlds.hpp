@@ -25,7 +25,7 @@ inline void add(World& world, const Disc& disc)
   g.fixed.push_back(disc.fixed);
 }
 
-/// Discs without gravity, friction 0.5 and restitution 0, solved to 1e-12.
+/// World of discs without gravity, friction 0.5 and restitution 0, solved to 1e-12.
 inline World world_of(const std::vector<Disc>& discs)
 {
   World world;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/reproduce/campaign combinations on tables made from the numbers that it should find: combinations_test.py SCRIPTS"""
+"""scripts/reproduce/campaign combinations, on tables made from the numbers that it should find. Usage: combinations_test.py SCRIPTS"""
 import math
 import os
 import sys
@@ -17,8 +17,8 @@ PREFACTOR, EXPONENT, LEVEL, DECAY, SHARE = 1.4413, 1.0057, 0.98, 14.8, 0.65
 
 
 def rows_of(contact, phi, of_slope=0.0):
-    """Rows of twenty layers and windows of 10 s up to 150 s: the share of large grains goes from phi/2 to phi. Contact: half of the stress
-    stands in mixed contacts and large grains have p* = SHARE. Kinetic: the ratio and the profile of the paper, in a flow of shear rate 10 + of_slope."""
+    """Rows of twenty layers and windows of 10 s up to 150 s; the share of large grains goes from phi/2 to phi. Contact stress: half of it
+    is in mixed contacts, and large grains have p* = SHARE. Kinetic stress: ratio and profile of Staron & Phillips, in a flow of shear rate 10 + of_slope."""
     rows = []
     for t in np.arange(0, 150, 10):
         for n in range(20):
@@ -114,7 +114,8 @@ class Folder(unittest.TestCase):
                 if name[:2] != "3a" or row["layers"] == "4-56":
                     self.assertAlmostEqual(row[name] / value, 1, 6, name)
                     self.assertTrue(combined.meets(row, name))
-            # sigma^L = phi_L sigma by size and where the large grain gets p* of a mixed contact; m = 1/2 shifts it by (p - p*)/2.
+            # Under size, and if the large grain gets p* of a mixed contact, sigma^L = phi_L sigma; the mixed part m = 1/2 shifts
+            # it by (p - p*)/2.
             self.assertAlmostEqual(row["slope"], 1, 9)
             self.assertGreater(row["B 0.8"], 0)
             self.assertLess(row["B 0.5"], 0)
@@ -124,7 +125,7 @@ class Folder(unittest.TestCase):
         b = lambda s: (s - 1) / 2 * (1 + 1 / s)
         self.assertGreater(row["4 slope"], 0)
         rates = [(10 + 100 * 0.03 * (slope - 23)) * math.sqrt(D / 9.8) for slope in (21, 23, 26)]
-        # The exponent is not one: the mean ratio over composition is that of 23 degrees times a constant.
+        # The exponent is not one: the mean ratio over composition is the ratio at 23 degrees times a constant.
         line = np.polyfit(rates, [b(PREFACTOR + 0.03 * (slope - 23)) for slope in (21, 23, 26)], 1)
         self.assertAlmostEqual(row["4 slope"] / line[0], 1, 1)
 

@@ -23,7 +23,7 @@ TYPED = {
     "--partition size,contact-": "--partition size,contact-point",
     "--partition unif": "--partition uniform:",
 }
-# An option of each place where words are listed, and one of its words.
+# One option for each list of words, and one word of the list.
 WORDS = {
     "grseg-balance": {"kernel": "lucy", "partition": "stock", "preset": "rigorous"},
     "grseg-closure": {"instruments": "previous"},
@@ -42,7 +42,7 @@ WORDS = {
 
 
 def typed(shell, script, keys, folder, wanted):
-    """What an interactive shell shows after these keys, its completion loaded, until it shows what is wanted."""
+    """Text that an interactive shell shows after these keys, with its completion loaded, until `wanted` appears."""
     words = {"bash": ["bash", "--norc", "--noprofile", "-i"], "zsh": ["zsh", "-f", "-i"]}[shell]
     child, terminal = pty.fork()
     if child == 0:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grseg-check --deep on a small file that is damaged in one place at a time: the sentence names it.
+// grseg-check --deep on a small file that is damaged in one place at a time: the message names the place.
 #include "formats/trajectory/hdf5.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
 #include "tests/shell.hpp"
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace hdf5;
 
-/// Writes attribute `name` anew.
+/// Writes the attribute `name` again, with another value.
 template <class Value>
 void set_attribute(hid_t file, const char* path, const char* name, const Value& value)
 {
@@ -42,7 +42,7 @@ void set_entry(hid_t file, const char* path, std::size_t at, double value)
   H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data());
 }
 
-/// Puts a copy of a dataset in its place, with values of `type` and, if any, through `filter`.
+/// Replaces a dataset by a copy with values of `type` and, if given, with `filter`.
 void rewrite(hid_t file, const char* path, hid_t type, H5Z_filter_t filter = H5Z_FILTER_NONE)
 {
   const Dataset old(H5Dopen2(file, path, H5P_DEFAULT));
@@ -79,7 +79,7 @@ class DeepCheck : public testing::Test {
     return shell::run(std::string(GRSEG_CHECK) + " " + path + " " + options +
                       " -o /dev/null --quiet 2>&1");
   }
-  /// `damage` makes the exit code `code` and a sentence that holds `words`.
+  /// Expects that `damage` causes the exit code `code` and a message that contains `words`.
   void expect(int code, const std::string& words, const std::function<void(hid_t)>& damage) const
   {
     three_grains::write(path, 4, {.compression = 4});

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every example that --help of a program prints runs as it stands, in a folder that has the files it names.
+"""Every example in the --help of a program runs as printed, in a folder that contains the files it names.
 
 Usage: examples_test.py SOURCE BIN PROGRAM
 """
@@ -22,7 +22,7 @@ SPLIT = """awk '/^ITEM: TIMESTEP/ {{ getline step; print "ITEM: TIMESTEP\\n" ste
 
 
 def columns_of(path, kept):
-    """A dump in tests/inputs with these columns of its contacts, the first being 1."""
+    """Text of a dump in tests/inputs with these columns of its contacts, numbered from 1."""
     text, rows = "", False
     for line in open(f"{INPUTS}/{path}"):
         words = line.split()
@@ -34,7 +34,7 @@ def columns_of(path, kept):
     return text
 
 
-# What an example names, and the command that makes it, of what else is in this list; or its text.
+# Files that examples name, each with the command that makes it from other files of this list, or with its text.
 MADE = {
     "run.h5": f"grseg-sim {CHUTE} --phi-large 0.4 -o run.h5",
     "a.h5": f"grseg-sim {CHUTE} -o a.h5",
@@ -66,12 +66,12 @@ MADE = {
     "contacts_*": columns_of("liggghts/contacts-full35.dump", [*range(1, 7), *range(13, 19), 32]),
     "run.hdf5": f"cp {INPUTS}/siconos/discs.hdf5 run.hdf5",
 }
-# Archives that no small file here is like: their examples must find nothing wrong but that they are missing.
+# Archives unlike any small file in the repository: their examples may only complain that these files are missing.
 MISSING = "spheres.dump", "run.restart", "run.data", "grains.csv", "grains_*.csv"
 
 
 def examples():
-    """The commands below "Examples:", without what is said behind two blanks or on lines far to the right."""
+    """Commands below "Examples:", without the explanations after two blanks or far to the right."""
     text = subprocess.run([f"{BIN}/{PROGRAM}", "--help"], capture_output=True, check=True, text=True).stdout
     text = text.split("\nExamples:\n")[1].split("\n\n")[0]
     lines = re.sub(r"\\\n\s*", "", text).split("\n")
@@ -84,13 +84,13 @@ def run(command, folder):
 
 
 def files_in(command):
-    """What the command reads: the names in it of which MADE knows how they come about, but not behind an option of an output."""
+    """Files that the command reads: names in MADE, except after an option that names an output."""
     words = [word.strip("'") for word in re.sub(r"(-o|--checkpoint) \S+", "", command).split()]
     return [name for name in MADE if name in words]
 
 
 def make(name, folder):
-    """In `folder`, the file `name` and what it is made of."""
+    """Makes the file `name` in `folder`, and the files that it is made of."""
     if glob.glob(name, root_dir=folder):
         return
     if MADE[name].startswith("ITEM:"):
@@ -105,7 +105,7 @@ def make(name, folder):
 
 
 def try_example(command, store):
-    """Whether the command could be tried, in a folder with all files of `store` but its own outputs."""
+    """True if the command could be tried, in a folder with all files of `store` except the command's own outputs."""
     if command.endswith(".mp4") and shutil.which("ffmpeg") is None:
         print("not tried, since ffmpeg is not installed:", command)
         return False

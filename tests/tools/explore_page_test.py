@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The page of grseg-explore in a browser: it opens from disk without a complaint, shows B as grseg-fit
-prints it, plays, answers to slider, keys and clicks, and fits a phone.
+"""The page of grseg-explore in a browser: it opens from disk without an error message, shows B as
+grseg-fit prints it, plays, reacts to slider, keys and clicks, and fits the screen of a phone.
 Usage: explore_page_test.py BIN RUN.h5 [FOLDER-FOR-PICTURES]
-Exit code 77 where there is no Chromium or no selenium to drive it: the test is skipped.
+Exit code 77, test skipped, if Chromium or selenium is missing.
 """
 import json
 import os
@@ -31,7 +31,7 @@ if webdriver is None or DRIVER is None or not (shutil.which("chromium") or shuti
 
 BIN, RUN = map(os.path.abspath, sys.argv[1:3])
 PICTURES = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
-FOLDER = tempfile.TemporaryDirectory()  # gone with the script
+FOLDER = tempfile.TemporaryDirectory()  # removed at the end of the script
 os.chdir(FOLDER.name)
 DESK, PHONE = (1280, 900), (390, 844)
 PROFILE = "profile"
@@ -49,7 +49,7 @@ def close(a, b, what, tolerance=1e-9):
 
 
 class Page:
-    """A page in headless Chromium; leaving it asserts that the browser had nothing to complain about."""
+    """A page in headless Chromium; at its end, asserts that the browser has logged no error."""
 
     def __init__(self, path, size=DESK, link=""):
         options = webdriver.ChromeOptions()
@@ -87,7 +87,7 @@ class Page:
             "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
 
     def settle(self):
-        """Two frames of the browser: what has changed is drawn."""
+        """Waits for two repaints of the browser, so that changes are drawn."""
         self.driver.execute_async_script(
             "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => done()))")
 
@@ -99,7 +99,7 @@ class Page:
         self.settle()
 
     def dark(self, is_dark):
-        """The system's mode."""
+        """Sets the colour scheme of the system."""
         mode = "dark" if is_dark else "light"
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": mode}]})
         self.settle()
@@ -111,12 +111,12 @@ class Page:
 
 
 def numbers_in(text):
-    """What grseg-fit --json says of each rule, of all flows together: {rule: {quantity: row}}"""
+    """Results of grseg-fit --json for each rule, over all flows together: {rule: {quantity: row}}"""
     found, flow = {}, {}
     for row in json.loads(text)["numbers"]:
-        if flow.get(row["rule"]) != row["flow"]:  # of all flows the rows stand last
+        if flow.get(row["rule"]) != row["flow"]:  # the rows of all flows are last
             found[row["rule"]], flow[row["rule"]] = {}, row["flow"]
-        found[row["rule"]].setdefault(row["quantity"], row)  # B over what was asked for stands first
+        found[row["rule"]].setdefault(row["quantity"], row)  # the first row has the interval that was asked for
     return found
 
 
@@ -125,7 +125,7 @@ def fitted(*words):
 
 
 def check_b(page):
-    """At ten shares and by three rules, and with its own Q."""
+    """B at ten shares, under three rules, and under power:Q at six Q."""
     rules = [f"uniform:{p}" for p in (0.05, 0.2, 0.35, 0.45, 0.5, 0.6, 0.648, 0.66667, 0.8, 1)]
     expected = fitted("sums.tsv", "--partition", ",".join(rules + ["size", "contact-point", "half"]))
     for Q in (0, 0.37, 1, 2, 3.3, 4):
@@ -144,7 +144,7 @@ def check_b(page):
 
 
 def check_band(page):
-    """The band and the intervals are those of grseg-fit."""
+    """The band and the intervals equal those of grseg-fit."""
     lines = tool("fit", "sums.tsv", "--scan", "0:1:0.01", "--quiet").splitlines()
     rows = [line.split("\t") for line in lines if not line.startswith("#")]
     at = {name: k for k, name in enumerate(rows[0])}
@@ -167,7 +167,7 @@ def check_band(page):
 
 
 def check_interval_between(page):
-    """Between the shares of the band its ends are joined by lines; that of a rule which grseg-fit was not asked for is the one at its share."""
+    """Between the shares of the band its ends are interpolated linearly; a rule that grseg-fit was not asked for has the interval at its share."""
     scan = page.run("return grseg.content.runs[0].fit.scan")
     def band(p):
         return [np.interp(p, scan["p"], [row[side] for row in scan["B"]]) for side in (1, 2)]
@@ -184,7 +184,7 @@ def check_interval_between(page):
 
 
 def check_neutral(page):
-    """Contacts that ignore size: ends of pairs drawn by phi/d, forces alike, branches as long as the pair."""
+    """Contacts that ignore size: ends are drawn in proportion to phi/d, forces are equal, branches are as long as the pair."""
     arrays = page.run("const {phi_large, frames} = grseg.page.fits[0].arrays; return [Array.from(phi_large), Array.from(frames)]")
     phi, frames = map(np.array, arrays)
     r = page.run("return grseg.page.fits[0].size_ratio")
@@ -197,7 +197,7 @@ def check_neutral(page):
 
 
 def check_contacts(page, run, numbers):
-    """Contacts of a frame as the file has them, with the branch from the nearest image, or a wall's point of contact, and the force on grain i along it and across."""
+    """Contacts of a frame equal those of the file: the branch from the nearest image, or from the contact point of a wall, and the components of the force on grain i along and across it."""
     for number in numbers:
         page.run("grseg.page.transport.goTo(arguments[0])", number)
         page.settle()
@@ -224,7 +224,7 @@ def check_contacts(page, run, numbers):
 
 
 def check_cuts(page):
-    """Where the line of a mixed contact changes its colour: the large grain's share of the branch, whichever grain comes first."""
+    """Point at which the line of a mixed contact changes colour: the large grain's share of the branch, in either order of the grains."""
     radius, small, rules = page.run("""
       const {players: [player]} = grseg.page, c = player.contacts(), {species, radius} = player.frames.arrays;
       const cuts = {}, mixed = [];
@@ -242,7 +242,7 @@ def check_cuts(page):
 
 
 def check_base_cuts(page):
-    """A contact with the base counts up to the contact point."""
+    """The line of a contact with the base has the grain's colour up to the contact point."""
     radii, at = page.run("""
       const {players: [player]} = grseg.page, c = player.contacts(), {species, radius} = player.frames.arrays;
       const own = Array.from(c.i.keys()).filter((k) => c.j[k] >= 0 && species[c.j[k]] === 255);
@@ -252,7 +252,7 @@ def check_base_cuts(page):
 
 
 def drawn(page, plot, what, scales="chart.scales"):
-    """The corners of a path, or the middles of circles, in the units of the plot's axes."""
+    """Corners of a path, or centres of circles, in the units of the plot's axes."""
     return np.array(page.run("""
       const {x, y} = eval(`grseg.page.${arguments[0]}.${arguments[2]}`);
       const marks = Array.from(document.querySelectorAll(arguments[1]));
@@ -262,7 +262,7 @@ def drawn(page, plot, what, scales="chart.scales"):
 
 
 def check_plots(page):
-    """What is drawn, read off the axes: the curve of equal B, the marks of codes, the profiles and B of the layers."""
+    """Shapes read from the axes: curve of equal B, marks of programs, profiles, and B of the layers."""
     page.run("grseg.set({rule: {kind: 'size', value: NaN}, time: 5}); grseg.flush()")
     rules = fitted("sums.tsv", "--partition", "size,half")
     B = {rule: rules[rule]["B"]["value"] for rule in ("size", "half")}
@@ -315,7 +315,7 @@ def check_controls(page):
     driver = page.driver
     slider = driver.find_element(By.ID, "p")
     left, bar = slider.rect["x"], slider.rect["width"]
-    # The thumb is 18 pixels wide, so that its middle goes from 9 pixels after the left end on.
+    # The thumb is 18 pixels wide, so its middle begins 9 pixels right of the left end.
     place = left + 9 + 0.8 * (bar - 18)
     page.run("document.getElementById('p').scrollIntoView({block: 'center'})")
     ActionChains(driver).move_to_element(slider).click_and_hold().move_by_offset(
@@ -355,7 +355,7 @@ def check_controls(page):
 
 
 def painted(page, canvas, name):
-    """How many pixels of a canvas have a colour of the sheet of this moment, to the last bit."""
+    """Number of pixels of a canvas that have exactly this colour of the style sheet."""
     return page.run("""
       const probe = document.createElement("i");
       probe.style.color = `var(--${arguments[1]})`;
@@ -372,7 +372,7 @@ def painted(page, canvas, name):
 
 
 def check_theme(page):
-    """When the system turns dark while the page is open, canvases do, too; also those of a tab that is not shown."""
+    """If the system turns dark while the page is open, canvases do, too, also those of a hidden tab."""
     def check(mode):
         for canvas, names in (("#players canvas", ("small", "large", "ink")), ("#scatter-plot canvas", ("ink",))):
             for name in names:
@@ -397,7 +397,7 @@ def check_theme(page):
 
 
 def check_captions(page):
-    """A piece of line in a caption looks like the line that is drawn, and every line of a figure has its piece; no caption names a colour."""
+    """The sample of a line in a caption looks like the line drawn, every line of a figure has its sample, and no caption names a colour."""
     page.run("grseg.set({rule: {kind: 'size', value: NaN}}); grseg.flush()")
     looks = """
       const of = (scope, chosen, property) => Array.from(scope.querySelectorAll(chosen), (e) => getComputedStyle(e)[property]).sort();
@@ -423,12 +423,12 @@ def check_captions(page):
             assert lines == pieces, (is_dark, plot, lines, pieces)
         legend = page.run("return Array.from(document.querySelectorAll('#legend .key'), (e) => e.className.slice(4))")
         for look in legend:
-            assert painted(page, "#players canvas", look) > 20 or look == "base", (is_dark, look)  # the base is drawn faintly
+            assert painted(page, "#players canvas", look) > 20 or look == "base", (is_dark, look)  # the base is drawn in a pale colour
     page.dark(False)
 
 
 def check_numbers(page):
-    """Numbers that differ read differently, and those of the page say what they are."""
+    """Different numbers are written differently, and numbers on the page have a unit or a name."""
     zero = page.run("return grseg.content.runs[0].fit.scan.p_zero[0]")
     for value in (zero + 0.003, zero - 0.003, 0.5003):
         page.run("grseg.set({rule: {kind: 'uniform', value: arguments[0]}}); grseg.flush()", value)
@@ -442,7 +442,7 @@ def check_numbers(page):
 
 
 def check_address():
-    """The address tells what is shown, and shows it again; it leaves no steps to go back by."""
+    """The address describes the view and restores it; its changes add nothing to the browser's history."""
     with Page("page.html") as page:
         assert page.run("return window.location.hash") == "", "nothing has been chosen"
         page.run("grseg.set({rule: {kind: 'uniform', value: 0.62}, grain: 7})")
@@ -471,7 +471,7 @@ def check_address():
 
 
 def check_grain(page):
-    """A click finds the grain that lies there, with the contacts that the file has of it."""
+    """A click selects the grain at this point, with the contacts that the file has for the grain."""
     page.run("grseg.page.transport.goTo(60); window.scrollTo(0, 0)")
     page.settle()
     with h5py.File(RUN) as file:
@@ -544,7 +544,7 @@ def check_report(page):
     for line in checks:
         assert line[0] in text
     assert f"All {len(checks)} lines" in text
-    assert "a longer run decides" in text and "Undecided by size, contact-point: the interval of B holds 0." in text
+    assert "a longer run decides" in text and "The sign of B is undecided under size, contact-point: the interval includes 0." in text
     rows = page.run("""return Array.from(document.querySelectorAll("#report td, #report dd, #report .doubt li"), (e) => [e.previousSibling?.textContent ?? "", e.textContent])""")
     exact = re.compile(r"Digest|Program|program")
     for name, own in rows:
@@ -564,7 +564,7 @@ def check_report(page):
 
 
 def check_means(page, name, columns):
-    """The report's tables by layer are means of the tool's rows of all windows, weighted by frames."""
+    """The report's tables by layer are means of the tool's rows over all windows, weighted by frames."""
     lines = [line.split("\t") for line in tool(name, RUN, "--quiet").splitlines() if not line.startswith("#")]
     at = {column: k for k, column in enumerate(lines[0])}
     rows = np.array(lines[1:], dtype=float)
@@ -580,7 +580,7 @@ def check_means(page, name, columns):
 
 
 def check_speed(page):
-    """Milliseconds of a frame of the player, and from a move of the slider to all that it changes."""
+    """Milliseconds for a frame of the player, and from a move of the slider until everything is drawn."""
     paint = page.run("return performance.getEntriesByType('paint').map((e) => [e.name, e.startTime])")
     best = lambda script: min(page.run(script) for _ in range(3))
     frame = best("""
@@ -597,7 +597,7 @@ def check_speed(page):
 
 
 def check_hostile():
-    """What a file is called, and what it says, is text and nothing else."""
+    """The name and the content of a file are shown as text only."""
     name = "<img src=x onerror=document.title=1>.h5"
     shutil.copy(RUN, name)
     evil = "</script><script>document.title='taken'</script><b id=evil>"
@@ -614,7 +614,7 @@ def check_hostile():
 
 
 def check_species():
-    """Of three species the pair that was chosen is that of grseg-fit, and what belongs to two alone is not shown."""
+    """With three species, the chosen pair has the B of grseg-fit, and items that need exactly two species are hidden."""
     tool("stress", RUN, "--classes", "3", "--quiet", "-o", "three.tsv")
     expected = fitted("three.tsv", "--pair", "1,2", "--partition", "size,half,uniform:0.7")
     tool("report", RUN, "--classes", "3", "--pair", "1,2", "--quiet", "-o", "three.html")
@@ -644,7 +644,7 @@ def check_species():
 
 
 def check_commands(page, rules):
-    """The commands that the page prints run, and print the B that it shows."""
+    """The commands printed on the page run without errors, and print the B that the page shows."""
     for rule in rules:
         page.run("""const [kind, value] = arguments[0].split(":");
                     grseg.set({rule: {kind, value: value === undefined ? NaN : Number(value)}}); grseg.flush()""", rule)
@@ -668,7 +668,7 @@ def check_commands(page, rules):
 
 
 def check_edges():
-    """A rule beyond what the page knows is refused; an interval that is not the rule's own says whose it is."""
+    """A rule beyond the range of the page is refused; if the interval of another rule is shown, the page says so."""
     for Q in ("8", "-2"):
         refused = subprocess.run([f"{BIN}/grseg-explore", RUN, "--partition", f"power:{Q}", "-o", "no.html"], capture_output=True, text=True)
         assert refused.returncode == 2 and "for Q from 0 to 4" in refused.stderr, refused.stderr
@@ -687,8 +687,8 @@ def check_edges():
         page.run("""const {size_small, size_large} = grseg.content.runs[0].arrays;
                     size_small.fill(-1); size_large.fill(-1);
                     grseg.set({rule: {kind: "size", value: NaN}}); grseg.flush()""")
-        assert page.text("b-words") == "No B: in no layer and window do the two species bear a pressure.", page.text("b-words")
-    # A table beside its run is cut by its own windows, and by --begin and --end.
+        assert page.text("b-words") == "No B: no layer has a positive pressure in any window.", page.text("b-words")
+    # A table beside its run keeps its own windows; --begin and --end select from them.
     tool("stress", RUN, "--window", "2.5", "--quiet", "-o", "given.tsv")
     tool("explore", RUN, "given.tsv", "--begin", "5", "--end", "15", "--quiet", "-o", "given.html")
     with Page("given.html") as page:
@@ -705,7 +705,7 @@ def check_edges():
 
 
 def check_spheres():
-    """Of spheres the page says that it shows some of the contacts, and adds none up."""
+    """For spheres the page says that it shows only some of the contacts, and it shows no sums over contacts."""
     if not os.path.exists(f"{BIN}/grseg-import"):
         return
     sample = f"{ROOT}/data/sample/spheres"
@@ -726,7 +726,7 @@ def check_spheres():
 
 
 def check_walls_and_one_species():
-    """A column that falls between walls: one species, so that there is no B; walls stand where grains touch them."""
+    """A column that falls between walls. With one species there is no B; walls are drawn where grains touch them."""
     tool("sim", f"{ROOT}/sim/scenes/column.ini", "--column-width", "8dS", "--depth", "10dS", "--length", "30dS",
          "--duration", "0.5", "--frame-interval", "0.05", "--accuracy", "draft", "--quiet", "-o", "column.h5")
     tool("explore", "column.h5", "--window", "0.25", "--quiet", "-o", "column.html")
@@ -756,7 +756,7 @@ def check_walls_and_one_species():
 
 
 def check_two_mixtures():
-    """Runs of two mixtures and one without B: all together as grseg-fit --scan has p*, and each row with what it is over."""
+    """Runs of two mixtures and one run without B: p* of all runs equals that of grseg-fit --scan, and each row says what its interval is over."""
     scene = f"{ROOT}/sim/scenes/chute.ini"
     for phi in ("0.3", "0.7"):
         tool("sim", scene, "--length", "8dL", "--depth", "16dS", "--duration", "2", "--frame-interval", "0.1", "--phi-large", phi,
@@ -796,7 +796,7 @@ def check_two_mixtures():
 
 
 def many_grains(name, grains, frames=None):
-    """The run with its mobile grains over and over, in its first frames; in all, with nothing but zeros, unless these are told."""
+    """Writes the run with its mobile grains repeated up to `grains`, in its first `frames` frames; without `frames` in all frames, filled with zeros."""
     shutil.copy(RUN, name)
     with h5py.File(name, "r+") as file:
         own = file["particles/grains"]
@@ -829,7 +829,7 @@ def many_grains(name, grains, frames=None):
 
 
 def check_sizes():
-    """A page of 200,000 grains opens; one that no browser could open is refused before anything is read."""
+    """A page of 200,000 grains opens; a page that no browser could open is refused before any frame is read."""
     many_grains("many.h5", 200000, 3)
     tool("explore", "many.h5", "--trust", "--window", "0.3", "--quiet", "--bootstrap", "0", "-o", "many.html")
     with Page("many.html") as page:
@@ -837,12 +837,12 @@ def check_sizes():
     many_grains("too-many.h5", 1200000)
     refused = subprocess.run([f"{BIN}/grseg-explore", "too-many.h5", "--trust", "-o", "no.html"], capture_output=True, text=True)
     assert refused.returncode == 2, refused.stderr
-    assert re.search(r"too-many.h5: about 100 frames, as --frames 100 has it, are 4\d\d MB .* take --frames \d\d, or a part of the run with --begin and --end", refused.stderr), refused.stderr
+    assert re.search(r"too-many.h5: about 100 frames \(--frames 100\) are 4\d\d MB .* use --frames \d\d, or a part of the run with --begin and --end", refused.stderr), refused.stderr
     assert not os.path.exists("no.html")
 
 
 def check_several():
-    """Two runs: side by side, each by itself, and together as grseg-fit has it."""
+    """Two runs: side by side, each by itself, and together, with the results of grseg-fit."""
     scene = f"{ROOT}/sim/scenes/chute.ini"
     for seed in "12":
         tool("sim", scene, "--length", "8dL", "--depth", "16dS", "--duration", "2", "--frame-interval", "0.1",

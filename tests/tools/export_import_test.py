@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""A run exported to LAMMPS dumps and imported by the command that grseg-export prints is the same run,
-number by number, and by its content digest: discs, and spheres and discs of three species, also where
-grains come and go.
+"""A run that is exported to LAMMPS dumps and imported by the command that grseg-export prints is unchanged,
+in every number and in its content digest: discs, and spheres and discs of three species, also if grains
+come and go.
 Usage: export_import_test.py GRSEG-EXPORT GRSEG-IMPORT SYNTHETIC_RUN RUN.h5
 """
 import os
@@ -17,7 +17,7 @@ exporter, importer, synthetic, path = sys.argv[1:]
 
 
 def same(a, b):
-    """NaN stands for what is absent."""
+    """True if both arrays are equal; NaN means absent."""
     return np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
 
 
@@ -39,7 +39,7 @@ def require_that_it_comes_back(path, *more):
                 assert same(run[group][name], again[group][name]), f"{name} differs"
         box, box_again = (f["particles/grains/box"] for f in (run, again))
         assert np.array_equal(box.attrs["boundary"], box_again.attrs["boundary"])
-        assert np.array_equal(box["edges"][::2], box_again["edges"][::2])  # along x and z
+        assert np.array_equal(box["edges"][::2], box_again["edges"][::2])  # periods along x and z
         assert run["grseg/digest"][-1] == again["grseg/digest"][-1], "only the sign of a zero differs"
 
 
@@ -49,5 +49,5 @@ with tempfile.TemporaryDirectory() as folder:
     for dimension, *words in ((3, "small,large"), (3, "fine,middle,coarse"), (2, "fine,middle,coarse"),
                               (2, "small,large", "changing"), (3, "fine,middle,coarse", "changing")):
         subprocess.run([synthetic, "synthetic.h5", str(dimension), *words], check=True)
-        # Its grains lie anywhere, and few of those that overlap have a contact.
+        # Grains of this run are at random places, and few of those that overlap have a contact.
         require_that_it_comes_back("synthetic.h5", "--accept-residual", "completeness=100")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What grseg-export writes holds the numbers of the run, array by array: read by h5py, an XML parser
-and as plain text; only one frame in 50, to be quick. Usage: export_test.py GRSEG-EXPORT RUN.h5
+"""Files that grseg-export writes contain the numbers of the run, array by array: they are read by h5py, by an
+XML parser and as plain text; only one frame in 50, for speed. Usage: export_test.py GRSEG-EXPORT RUN.h5
 """
 import gzip
 import os
@@ -18,7 +18,7 @@ grains, contacts = run["particles/grains"], run["grseg/contacts"]
 frames = range(0, grains["position/value"].shape[0], 50)
 number = len(grains["id"])
 length = grains["box/edges"][0]
-folder = tempfile.TemporaryDirectory()  # gone with the script
+folder = tempfile.TemporaryDirectory()  # removed at the end of the script
 os.chdir(folder.name)
 
 
@@ -172,7 +172,7 @@ def check_h5md3d():
         same(all_of[name], grains[name], name)
     for name in run["observables"]:
         same(view["observables"][name]["value"], run["observables"][name]["value"][::50], name)
-    # MDAnalysis' reader refuses units it does not know, such as m.
+    # MDAnalysis' reader refuses units that it does not know, such as m.
     assert not [name for name in ("position", "velocity", "force")
                 if "unit" in all_of[name]["value"].attrs]
 

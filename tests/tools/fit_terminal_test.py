@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""grseg-fit prints a short table on a terminal, and the whole one into pipes and files.
+"""grseg-fit prints a short table on a terminal, and the whole table into pipes and files.
 Usage: fit_terminal_test.py GRSEG-FIT SUMS"""
 import os
 import sys
@@ -22,7 +22,7 @@ def in_pipe(*more):
 
 
 def made_with(table, words, more):
-    """The table as made with more words on the command line, which is part of its history."""
+    """The table as it would be with more words on the command line, which its history contains."""
     return shared.sealed(shared.unsealed(table).replace(words, words + more))
 
 
@@ -33,9 +33,9 @@ def main():
 
     short, error = on_terminal()
     assert short.startswith("B of the contact stress (yy)") and "\nsize " in short, short
-    assert "\nhalf " in short and "\nB = 0 where" in short and "\ndoubt: size" in short, short
+    assert "\nhalf " in short and "\nB = 0 if" in short and "\ndoubt: size" in short, short
     assert "\t" not in short and "#" not in short, short
-    assert error == "", error  # the doubts are in the table
+    assert error == "", error  # doubts are printed in the table
     assert in_pipe("--short")[0] == short
 
     assert on_terminal("-o", "-")[0] == made_with(whole, "--partition size,half", " -o -")

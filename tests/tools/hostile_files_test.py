@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Files that somebody made to do harm: every tool refuses them, in one sentence, soon and in little
-memory, or takes no notice; nothing outside the file is opened. Usage: hostile_files_test.py BIN RUN.h5
+"""Malicious files: every tool refuses them with one sentence, quickly and with little memory, or ignores the
+malicious part; no other file is opened. Usage: hostile_files_test.py BIN RUN.h5
 """
 import os
 import resource
@@ -15,7 +15,7 @@ import numpy as np
 bin_folder, run = sys.argv[1:]
 seconds, memory = 20, 3 << 30
 tools = {
-    "stress": ["grseg-stress", "--window", "0.1", "--trust"],  # a stranger makes digests, too
+    "stress": ["grseg-stress", "--window", "0.1", "--trust"],  # an attacker can compute digests, too
     "check": ["grseg-check"],
     "deep": ["grseg-check", "--deep"],
     "export": ["grseg-export", "--to", "extxyz", "-o", "view.xyz"],
@@ -23,7 +23,7 @@ tools = {
 
 
 def limit_memory():
-    if "ASAN_OPTIONS" not in os.environ:  # the sanitizer reserves all addresses that there are
+    if "ASAN_OPTIONS" not in os.environ:  # the sanitizer reserves the whole address space
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
 
 

@@ -20,31 +20,31 @@ refused() {
   sed -i '/^make: .* Error 2$/d' log # of the make that called the one which refused
   [ "$(wc -l <log)" = 1 ] && grep -q "$sentence" log || fail "$*: expected '$sentence': $(cat log)"
 }
-advice='\(make cannot take that in names; choose another\|write it without\)'
+advice='\(make cannot use that in names; choose another\|write it without\)'
 line_break='x
 touch pwned'
 for bad in 'a`touch pwned`.h5' 'x;touch pwned' '$(touch pwned)' '$(shell touch pwned)' "it's" 'say "x"' 'a|b' \
   'a#b' 'a:b' 'a%b' 'a*' "$line_break"; do
   for variable in RUNS OUT BIN; do
-    refused "$variable holds .*; $advice" -C "$source/scripts" reanalysis RUNS=run.h5 "$variable=$bad"
+    refused "$variable contains .*; $advice" -C "$source/scripts" reanalysis RUNS=run.h5 "$variable=$bad"
   done
   for variable in OUT SEEDS MIXTURES NAME WINDOW; do
-    refused "$variable holds .*; $advice" -C "$source/scripts" reproduce "$variable=$bad"
+    refused "$variable contains .*; $advice" -C "$source/scripts" reproduce "$variable=$bad"
   done
   for variable in TABLES WORK; do
-    refused "$variable holds .*; $advice" -C "$source/scripts/reproduce" -f document.mk reproduction.md "$variable=$bad"
+    refused "$variable contains .*; $advice" -C "$source/scripts/reproduce" -f document.mk reproduction.md "$variable=$bad"
   done
 done
 # A folder of that name: make would expand it where it is called.
 ! env PWD="$folder/\$(shell touch $folder/pwned)" make --no-print-directory -C "$source/scripts" reanalysis RUNS=run.h5 >log 2>&1 || fail "$(cat log)"
 nothing_ran "the name of the folder"
-grep -q 'the folder where make was called holds \$' log || fail "$(cat log)"
-refused 'OUT holds a blank; ' -C "$source/scripts" reanalysis RUNS=run.h5 OUT='my folder'
+grep -q 'the folder where make was called contains \$' log || fail "$(cat log)"
+refused 'OUT contains a blank; ' -C "$source/scripts" reanalysis RUNS=run.h5 OUT='my folder'
 for bad in '$(shell touch pwned)' '`touch pwned` $(touch pwned)' "$line_break"; do
   for variable in PARTITION LAYER WINDOW BEGIN ASSIGN MEAN BOOTSTRAP SCAN HEIGHTS; do
-    refused "$variable holds .*write it without" -C "$source/scripts" reanalysis RUNS=run.h5 "$variable=$bad"
+    refused "$variable contains .*write it without" -C "$source/scripts" reanalysis RUNS=run.h5 "$variable=$bad"
   done
-  refused 'RUN holds .*write it without' -C "$source/scripts" reproduce RUN="$bad"
+  refused 'RUN contains .*write it without' -C "$source/scripts" reproduce RUN="$bad"
 done
 
 # What make can pass on, the tools refuse: here the value is one of their words.

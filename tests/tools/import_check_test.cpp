@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What grseg-import writes, of every format, is as specified: grseg-check --deep passes it.
+// Runs that grseg-import writes from every format meet the specification: grseg-check --deep passes them.
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 #include "tests/formats/import/mercury_files.hpp"

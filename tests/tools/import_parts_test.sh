@@ -41,7 +41,7 @@ awk 'BEGIN { print "t,id,x,y,vx,vy,fx,fy,d,m" > "grains.csv"; print "t,i,j,fx,fy
   } }'
 in_parts 4 --format csv --grains grains.csv --contacts contacts.csv --units si --step 1e-3 --gravity 10 --slope 0 \
   --boundary-ids 1 --split-diameter 0.2 --grains-are discs --cell x:0:1
-grep -q '3 ids in all, between 2 and 3 present' joined.log && grep -q '1 moments have grains but no contacts' joined.log ||
+grep -q '3 ids in all, between 2 and 3 in a frame' joined.log && grep -q '1 frames have grains but no contacts' joined.log ||
   fail "$(cat joined.log)"
 
 PWD=$folder make --no-print-directory -j2 -C "$source/scripts" import BIN="$bin" SHARDS=2 RUN="env --" \
@@ -57,11 +57,11 @@ refused() {
   [ "$code" = "$expected" ] && grep -q "$sentence" log || fail "code $code, expected $expected: $(cat log)"
 }
 $bin/grseg-import $spheres --quiet --overwrite -o run.h5 --part 1/2
-expected=2 sentence='^grseg-import: run.part-2-of-2.h5 is missing; make it with this command and --part 2/2' refused
+expected=2 sentence='^grseg-import: run.part-2-of-2.h5 is missing; write it with this command and --part 2/2' refused
 $bin/grseg-import $spheres --quiet --overwrite -o run.h5 --part 2/2 --origin centre
 expected=3 sentence="run.part-2-of-2.h5: is a part of another import, by '.*--origin centre'" refused
 cp run.part-1-of-2.h5 run.part-2-of-2.h5
-expected=3 sentence='run.part-2-of-2.h5: is part 1/2, not 2/2; make it with this command' refused
+expected=3 sentence='run.part-2-of-2.h5: is part 1/2, not 2/2; write it with this command' refused
 cp whole.h5 run.part-2-of-2.h5
 expected=3 sentence='run.part-2-of-2.h5: is not a part of an import' refused
 [ ! -e run.h5 ] || fail 'a refused output appeared'

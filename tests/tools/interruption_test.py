@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""An import or export that gets SIGINT or SIGTERM says so, by its exit code, too, and leaves nothing.
+"""An import or export that receives SIGINT or SIGTERM reports it, also by its exit code, and leaves no file.
 
 Usage: interruption_test.py GRSEG-IMPORT GRSEG-EXPORT FOLDER RUN.h5
 FOLDER holds atoms.dump and contacts.dump of LAMMPS, which are repeated until the import takes a while.
@@ -15,7 +15,7 @@ importer, exporter, dumps, run = (os.path.abspath(word) for word in sys.argv[1:]
 
 
 def repeat(name, times):
-    """The moments of a dump again and again, at steps that go on."""
+    """The frames of a dump, repeated with increasing steps."""
     moments = open(os.path.join(dumps, name)).read().split("ITEM: TIMESTEP\n")[1:]
     bodies = [moment.split("\n", 1)[1] for moment in moments]
     with open(name, "w") as out:
@@ -24,7 +24,7 @@ def repeat(name, times):
 
 
 def interrupt(number, command):
-    """Sends the signal as soon as the program has begun to write beside its output."""
+    """Sends the signal as soon as the program has begun to write a file beside its output."""
     before = set(os.listdir())
     program = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     while program.poll() is None and set(os.listdir()) == before:

@@ -1,7 +1,7 @@
-"""A campaign of runs whose tables are known in advance, beside programs that know their answers.
+"""A campaign of runs whose tables are known in advance, with programs whose answers are prepared.
 
-grseg-fit, grseg-derive and grseg-closure are stood in for by a script that prints what the test put down for its arguments, so
-that what is asked of them, and what is made of their answers, is tested and not they.
+A script replaces grseg-fit, grseg-derive and grseg-closure and prints the answer that the test has prepared for its arguments.
+So the tests check the questions to these programs and the use of their answers, not the programs.
 """
 import json
 import math
@@ -18,10 +18,11 @@ sys.path.insert(0, campaign)
 import tables  # noqa: E402
 
 D, G, SLOPE, RHO = 0.005, 9.8, math.radians(23), 1.0
-UNIT = RHO * G * D  # of stress, N/m
+UNIT = RHO * G * D  # unit of stress, N/m
 
 
-# Prints the first answer in answers.json all of whose words are among the arguments, and logs the arguments.
+# Prints the first answer in answers.json whose words are all among the arguments, or writes it into the file after -o, and logs
+# the arguments.
 STAND_IN = """#!/usr/bin/python3
 import json, os, sys
 here = os.path.dirname(os.path.abspath(__file__))
@@ -30,7 +31,8 @@ with open(os.path.join(here, "asked"), "a") as asked:
     asked.write(json.dumps(words) + "\\n")
 for wanted, table in json.load(open(os.path.join(here, "answers.json"))):
     if all(any(each == word or each.endswith(word) for each in words) for word in wanted):
-        sys.stdout.write(table)
+        out = open(words[words.index("-o") + 1], "w") if "-o" in words else sys.stdout
+        out.write(table)
         break
 else:
     sys.exit("no answer to " + " ".join(words))
@@ -39,7 +41,7 @@ NAN = float("nan")
 
 
 def fitted(rule="size", freedom=NAN, **numbers):
-    """Rows of grseg-fit from {quantity: value or (value, low, high)}; B_windows is B over windows."""
+    """Rows of grseg-fit from {quantity: value or (value, low, high)}; B_windows is B with its interval over windows."""
     rows = []
     for name, number in numbers.items():
         quantity, _, over = name.partition("_") if name.startswith("B_") and name != "B_minus_size" else (name, "", "runs")
@@ -61,7 +63,7 @@ HEAD = (("small_diameter", D), ("large_diameter", 2 * D), ("gravity_x", G * math
 
 
 class Campaign:
-    """A folder of finished runs, and one of programs that know their answers."""
+    """A folder of finished runs, and a folder of programs with prepared answers."""
 
     def __init__(self, folder):
         self.tables, self.bin = os.path.join(folder, "tables"), os.path.join(folder, "bin")
@@ -75,7 +77,7 @@ class Campaign:
             os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
 
     def run(self, name, **quantities):
-        """A finished run with these tables, each a list of rows."""
+        """Makes a finished run with these tables, each a list of rows."""
         folder = os.path.join(self.tables, name)
         os.makedirs(folder)
         for quantity, rows in {**quantities, "checksums": None}.items():
@@ -86,8 +88,8 @@ class Campaign:
     def answer(self, *words, rows, head=()):
         self.answers.append([list(words), text_of(rows, head)])
 
-    def made_by(self, script, *words):
-        """Rows of the table that the script makes."""
+    def made_by(self, script, *words, table=None):
+        """Rows of the table that the script makes from these answers; if it makes a folder, `table` names the table in it."""
         with open(os.path.join(self.bin, "answers.json"), "w") as file:
             json.dump(self.answers, file)
         made = os.path.join(self.folder, "made.tsv")
@@ -95,7 +97,7 @@ class Campaign:
                                *words, "-o", made, "--bin", self.bin], capture_output=True, text=True)
         if done.returncode != 0:
             raise AssertionError(done.stderr)
-        return tables.read(made)[1]
+        return tables.read(os.path.join(made, table) if table else made)[1]
 
     def asked(self):
         with open(os.path.join(self.bin, "asked")) as file:

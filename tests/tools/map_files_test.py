@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Maps as files hold the numbers of the table: HDF5 read by h5py, with coordinates, and VTK image
-data by an XML parser. Names and settings that cannot be are refused.
+"""Maps in files contain the numbers of the table: HDF5 with coordinates is read by h5py, VTK image data by
+an XML parser. Impossible names and settings are refused.
 Usage: map_files_test.py GRSEG-STRESS GRSEG-KINETIC GRSEG-MICRO GRSEG-FIT RUN.h5
 """
 import os
@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 stress, merge, kinetic, micro, fit, run = sys.argv[1:]
-folder = tempfile.TemporaryDirectory()  # gone with the script
+folder = tempfile.TemporaryDirectory()  # removed at the end of the script
 os.chdir(folder.name)
 MAP = ["--bins", "xy", "--layer", "6dS", "--window", "4", "--quiet"]
 
@@ -23,7 +23,7 @@ def call(*words):
 
 
 def table_of(tool):
-    """Header, columns by name and the line of names."""
+    """Header, columns by name, and the line of column names."""
     text = subprocess.run([tool, run, *MAP], check=True, capture_output=True, text=True).stdout
     lines = text.splitlines()
     header = {}
@@ -46,7 +46,7 @@ def same(a, b, what):
 
 
 def stored(column):
-    """In HDF5 a / would begin a group."""
+    """Name in the file: in HDF5 a / would begin a group."""
     return column.replace("/", "_per_")
 
 
@@ -136,7 +136,7 @@ def check_vtk(tool):
     assert refused.returncode == 2 and "already exists" in refused.stderr
     assert call(tool, run, *MAP, "--overwrite", "-o", "map.pvd").returncode == 0
     several = call(tool, run, *MAP, "-o", "one.vti")
-    assert several.returncode == 2 and "take -o one.pvd" in several.stderr, several.stderr
+    assert several.returncode == 2 and "use -o one.pvd" in several.stderr, several.stderr
     one = [*MAP, "--begin", str(begins[-1])]
     assert call(tool, run, *one, "-o", "one.vti").returncode == 0
     same(image("one.vti")[1]["V (m^2)"], arrays["V (m^2)"], "V")
@@ -147,23 +147,23 @@ def check_refusals():
         done = call(*words)
         assert done.returncode == code and sentence in done.stderr, (words, done)
 
-    refused([stress, run, "-o", "sums.h5"], 2, "only maps become such files; take --bins xy")
+    refused([stress, run, "-o", "sums.h5"], 2, "only a map can be written as such a file; use --bins xy")
     for bins in "xz", "rz:0.1m,0.1m":
-        refused([stress, run, "--bins", bins], 2, "the run has two dimensions; take --bins xy")
+        refused([stress, run, "--bins", bins], 2, "the run has two dimensions; use --bins xy")
     refused([stress, run, "--bins", "yx"], 2, "unknown --bins 'yx'")
     refused([stress, run, "--bins", "xy:1,2"], 2, "unknown --bins 'xy:1,2'")
     for assign in "branch", "gauss":
         refused([stress, run, "--bins", "xy", "--assign", assign], 2,
                 "spreads contacts over layers, not over the cells of a map")
-    refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
-    refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "take centre")
-    refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro knows layers, xy and xz")
-    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "take layer, instant or instant-unbiased")
-    refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "are the cells too small?")
-    refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json prints text")
+    refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "use centre")
+    refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "use centre")
+    refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro has layers, xy and xz")
+    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "use layer, instant or instant-unbiased")
+    refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "the cells are too small")
+    refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json writes text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0
-    refused([fit, "map.tsv"], 3, "map.tsv: a map (bins: xy), whose rows are cells, not layers")
-    refused([merge, "map.tsv"], 3, "map.tsv: a map (bins: xy)")
+    refused([fit, "map.tsv"], 3, "map.tsv: the table is a map (bins: xy) with rows of cells, not layers")
+    refused([merge, "map.tsv"], 3, "map.tsv: the table is a map (bins: xy)")
     os.mkdir("mine")
     refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
     refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "holds no 000000.vti")
@@ -172,7 +172,7 @@ def check_refusals():
 
 
 def check_sums():
-    """A map of contacts adds up to its layers."""
+    """A map of contacts, summed over each layer, equals the table by layer."""
     _, columns, names = table_of(micro)
     text = subprocess.run([micro, run, *MAP[2:], "--composition", "centre"], check=True,
                           capture_output=True, text=True).stdout

@@ -47,7 +47,7 @@ for command in "grseg-fit run.tsv again.tsv" "grseg-merge run.tsv again.tsv --al
   code=0
   # shellcheck disable=SC2086
   $bin/$command >table 2>words || code=$?
-  [ $code = 2 ] && grep -q "both hold the time from 0 s of the same run (bed: grains [0-9]*, .*, seed 1, flow " words ||
+  [ $code = 2 ] && grep -q "both contain the time from 0 s of the same run (bed: grains [0-9]*, .*, seed 1, flow " words ||
     fail "$command: exit code $code: $(cat words)"
 done
 

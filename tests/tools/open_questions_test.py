@@ -20,11 +20,11 @@ import stages  # noqa: E402
 import tables  # noqa: E402
 
 SPEED = math.sqrt(G * D)
-BEADS = math.pi / 4 * (2 * D) ** 2  # area of a large grain
+BEADS = math.pi / 4 * (2 * D) ** 2  # area of a bead, which is as large as a large grain
 
 
 def rows_of_bed(t, large_below=0.0, y_large=0.5, rate=0.0):
-    """A window of 1 s of stress and of segregation, a layer of 4 d_S and the bed."""
+    """Tables of stress and of segregation with one window of 1 s: a layer of 4 d_S and the bed."""
     key = {"t0": t, "t1": t + 1, "frames": 20}
     layer = {**key, "y0": 0.0, "y1": 4 * D}
     stress = {**layer, "area_S": 1.0, "area_L": large_below * BEADS}
@@ -34,7 +34,7 @@ def rows_of_bed(t, large_below=0.0, y_large=0.5, rate=0.0):
 
 
 class Questions(Pipeline):
-    """One row per flow, with what grseg-fit says of it and of the paper's choice."""
+    """One row per flow, with results of grseg-fit for it and for the choice of Staron & Phillips."""
 
     def run_of(self, name, **bed):
         windows = [rows_of_bed(0, large_below=100, y_large=0.1, rate=1000), rows_of_bed(10, **bed)]
@@ -60,7 +60,7 @@ class Questions(Pipeline):
         row = rows["phi0.30-s23-irregular"]
         self.assertEqual((row["runs"], row["end"]), (2, 11))
         self.assertAlmostEqual(row["less_B"], 0.02)
-        # Standard errors of 0.003 and 0.004 make one of 0.005, with 5^4/(3^4/2 + 4^4/1) = 2.11 degrees of freedom.
+        # Standard errors of 0.003 and 0.004 combine to 0.005, with 5^4/(3^4/2 + 4^4/1) = 2.11 degrees of freedom.
         self.assertAlmostEqual(row["less_B_reach"], 0.005 * 4.13, delta=0.005 * 0.1)
         self.assertTrue(math.isnan(rows["phi0.30-s23"]["less_B"]))
         for words in self.asked_of("phi0.30-s23"):
@@ -113,7 +113,7 @@ class Questions(Pipeline):
         self.assertAlmostEqual(row["yL_end"], 0.75)
         self.assertAlmostEqual(row["rate"], 12 * math.sqrt(D / G), 6)
         self.assertAlmostEqual(row["overlap"], 1e-3)
-        self.assertAlmostEqual(row["f_ratio"], (3 + 2 + 7) / (1 + 2 + 4))  # of the last 15 s alone
+        self.assertAlmostEqual(row["f_ratio"], (3 + 2 + 7) / (1 + 2 + 4))  # from the last 15 s only
         self.assertAlmostEqual(row["trapped_reach"], 12.706 * math.sqrt(2) / math.sqrt(2), 4)
 
     def test_a_run_of_150_s_counts_instead_of_a_shorter_one_of_its_mixture(self):
@@ -140,7 +140,7 @@ class Questions(Pipeline):
 
 
 class Closures(Pipeline):
-    """Gray & Thornton's coefficients of each mixture, from the runs that kept the flux of every layer."""
+    """Gray & Thornton's coefficients for each mixture, from the runs whose tables have the flux of every layer."""
 
     def test_a_mixture_is_closed_by_all_its_runs_inside(self):
         for name in ("phi0.30-s23-seed1", "phi0.30-s23-e0.25-seed1", "phi0.30-s23-e0.25-seed2", "phi0.60-s23-e0.25-seed1", "phi0.60-s22-e0.25-seed1"):
@@ -159,7 +159,7 @@ class Closures(Pipeline):
 
 
 def points(j, k, shape, n=400, seed=1):
-    """Points whose large grains get phi_L phi_S P + j q + k G more than their share, of any flux and gradient."""
+    """Points in which large grains carry phi_L phi_S P + j q + k G more than their share, with any flux q and gradient G."""
     random = np.random.default_rng(seed)
     t, y, phi = random.uniform(0, 600, n), random.uniform(0.1, 0.9, n), random.uniform(0.1, 0.9, n)
     q, gradient = random.normal(0, 1e-3, n), random.normal(0, 0.02, n)
@@ -168,7 +168,7 @@ def points(j, k, shape, n=400, seed=1):
 
 
 class Stages(Pipeline):
-    """What contacts give beyond the share: of composition and height, of the flux, of the gradient."""
+    """Excess of the large grains' contact stress over their share, as a function of composition and height, flux, and gradient."""
 
     SHAPE = (0.03, 0.01, -0.02, 0.05)
 
@@ -195,19 +195,20 @@ class Stages(Pipeline):
         found = {row[:2]: row[2:] for row in stages.jackknife(starts)}
         value, low, high, _ = found["both", "j"]
         self.assertAlmostEqual(value, 2, 0)
-        self.assertAlmostEqual((high - low) / 2, 4.303 / math.sqrt(3), delta=0.4)  # Student's t of three, 1 apart
-        # A second start, of two runs that agree, halves the weight of the first and adds no variance.
+        self.assertAlmostEqual((high - low) / 2, 4.303 / math.sqrt(3), delta=0.4)  # Student's t of three values that are 1 apart
+        # A second start with two runs that agree halves the weight of the first start and adds no variance.
         starts["b"] = [points(2, 0, self.SHAPE, seed=n) for n in (7, 7)]
         found = {row[:2]: row[2:] for row in stages.jackknife(starts)}
         self.assertAlmostEqual((found["both", "j"][2] - found["both", "j"][1]) / 2, 3 / 5 * 4.303 / math.sqrt(3), delta=0.4)
-        # Of a single run the units are blocks: as one run of ten alike it adds no variance; j = 1 before 300 s and 3 after has one.
+        # For a single run the units are blocks: a run of ten equal blocks adds no variance; a run with j = 1 before 300 s and 3
+        # after has one.
         changing = points(1, 0, self.SHAPE)
         late = changing[:, 0] > 300
         changing[late] = points(3, 0, self.SHAPE)[late]
         steady, lonely = ({row[:2]: row[2:] for row in stages.jackknife({"c": [run]})} for run in (points(2, 0, self.SHAPE), changing))
         self.assertEqual(steady["both", "j"][3], "blocks of 60 s")
         self.assertLess(steady["both", "j"][2] - steady["both", "j"][1], 1e-9)
-        # Ten values of 1 and 3, five of each: Student's t, standard deviation and root of their number.
+        # Five values of 1 and five of 3: Student's t, standard deviation, and root of their number.
         self.assertAlmostEqual((lonely["both", "j"][2] - lonely["both", "j"][1]) / 2, 2.262 * math.sqrt(10 / 9) / math.sqrt(10), delta=0.25)
         alike = {row[:2]: row[2:] for row in stages.jackknife({"a": [points(1, 0, self.SHAPE, seed=n) for n in range(3)]})}
         self.assertAlmostEqual(alike["both", "j"][1], alike["both", "j"][2], 9)
@@ -221,7 +222,7 @@ class Stages(Pipeline):
         self.assertGreater(of(whole) - of(low), 0.005)
 
     def test_a_window_counts_where_all_of_it_lies(self):
-        # From 0 to 10 s, when the flow begins, and from 10 to 20 s: the first is not of 5 to 20 s.
+        # Windows from 0 to 10 s, when the flow begins, and from 10 to 20 s: the first is not inside 5 to 20 s.
         points = np.array([[t, 0.5, 0.5, excess, 1, 0, 0, 0] for t, excess in ((5, 0.01), (15, 0.03))])
         as_it_is, in_class = stages.by_time({"a": [points]}, 10)
         self.assertEqual(as_it_is[:2], ("a 5-20 s", "B"))
@@ -231,7 +232,7 @@ class Stages(Pipeline):
             self.assertTrue(math.isnan(row[3]), "one block tells no interval")
 
     def test_b_of_one_run_has_the_interval_of_its_blocks(self):
-        # Three windows of 10 s, alike but for their excess: Student's t of three means, 0.01/0.25 apart.
+        # Three windows of 10 s that differ only in their excess: Student's t of three means, 0.01/0.25 apart.
         points = np.array([[t, 0.5, 0.5, excess, 1, 0, 0, 0] for t, excess in ((25, 0.01), (35, 0.02), (45, 0.03))])
         row = next(iter(stages.by_time({"a": [points]}, 10)))
         self.assertEqual((row[0], row[1], row[5]), ("a 20-60 s", "B", "3 blocks"))
@@ -259,7 +260,7 @@ class Stages(Pipeline):
 
 
 class Denser(Pipeline):
-    """c of the closure, from a weight that the large grains alone have."""
+    """c of the closure, from a weight that only large grains have."""
 
     PHI = 0.45
 
@@ -267,7 +268,7 @@ class Denser(Pipeline):
         return {"D": excess, "phi": self.PHI, "value": value, "p_zero": 0.65, "dc_dp": 5000.0}
 
     def test_level_and_slope_of_the_driving_give_back_b_and_c(self):
-        """c q = (B (1 + phi D) - D) X, for every B from 0 to 1."""
+        """Checks c q = (B (1 + phi D) - D) X for B from 0 to 1."""
         for b in np.linspace(0, 1, 11):
             c = 1000 * (1 + b)
             points = [self.point(excess, (b * (1 + self.PHI * excess) - excess) / c) for excess in (-0.2, 0, 0.2, 1)]
@@ -288,7 +289,7 @@ class Denser(Pipeline):
         for name, row in found.items():
             by_level = (line(3e-4 + small, -1e-3)[name]["value"] - row["value"]) / small
             by_slope = (line(3e-4, -1e-3 + small)[name]["value"] - row["value"]) / small
-            reach = math.hypot(by_level * of_level, by_slope * of_slope)  # level and slope are independent: the mean D is 0
+            reach = math.hypot(by_level * of_level, by_slope * of_slope)  # level and slope are independent, because the mean of D is 0
             self.assertAlmostEqual((row["value_high"] - row["value"]) / reach, 1, 4, name)
 
     def test_a_ratio_is_the_mean_of_its_runs_as_sure_as_their_scatter_about_the_line(self):
@@ -296,7 +297,7 @@ class Denser(Pipeline):
         one, two = closures.ratios(points)
         self.assertEqual((one["of"], one["runs"], two["of"]), ("D = 0", 2, "D = 1"))
         self.assertAlmostEqual(one["value"], 4e-4, 12)
-        # Four residuals of 1e-4 over two degrees of freedom, t = 4.303; of the mean of two.
+        # Four residuals of 1e-4 over two degrees of freedom, t = 4.303, for the mean of two values.
         self.assertAlmostEqual(one["value_high"] - one["value"], 4.303 * 1e-4 * math.sqrt(4 / 2) / math.sqrt(2), 9)
 
     def test_ratios_of_one_flow_are_put_on_a_line(self):
@@ -308,13 +309,13 @@ class Denser(Pipeline):
             self.campaign.answer("grseg-closure", f"density{ratio}-t60-seed1/stress.tsv",
                                  rows=[{"quantity": "B_over_c[s]", "value": factor, "low": factor - 1e-5, "high": factor + 1e-5}, *rows])
         rows = {row["of"]: row for row in self.campaign.made_by("denser", "--flow", "phi0.50-s23-mixed")}
-        self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # by volume instead of mass
+        self.assertAlmostEqual(rows["D = -0.5"]["value"], 6e-4)  # per volume instead of per mass
         self.assertEqual(rows["D = 0"]["value"], 4e-4)
         self.assertAlmostEqual(rows["c"]["value"], 1 / (0.5 * 4e-4 + 4e-4), 3)
 
 
 class RigidLimit(unittest.TestCase):
-    """B of discs that do not overlap, from those that do."""
+    """B of discs that do not overlap, extrapolated from discs that do."""
 
     def test_of_equal_errors_the_line_is_that_of_the_text_book(self):
         x, y, e = [1.0, 2.0, 3.0, 4.0], [1.0, 2.0, 2.0, 4.0], 0.5
@@ -354,7 +355,7 @@ class RigidLimit(unittest.TestCase):
 
 
 class Answers(unittest.TestCase):
-    """The document's tables between markers."""
+    """The tables between markers in a document."""
 
     def rewritten(self, text, **of_folder):
         with tempfile.TemporaryDirectory() as work:

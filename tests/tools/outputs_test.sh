@@ -73,9 +73,9 @@ refused "$is_input" scene.ini "$bin/grseg-sim" scene.ini --checkpoint scene.ini 
 ln -s run.chk soft.h5.part
 refused "soft.h5.part is the input" run.chk "$bin/grseg-sim" --restart run.chk --duration 1 -o soft.h5 --overwrite
 for checkpoint in ./x.h5 x.h5.part; do
-  refused "cannot be one file" x.h5 "$bin/grseg-sim" scene.ini --checkpoint $checkpoint -o x.h5
+  refused "cannot be the same file" x.h5 "$bin/grseg-sim" scene.ini --checkpoint $checkpoint -o x.h5
 done
-refused "cannot be one file" x_prev.h5 "$bin/grseg-sim" scene.ini --checkpoint x.h5 -o x_prev.h5
+refused "cannot be the same file" x_prev.h5 "$bin/grseg-sim" scene.ini --checkpoint x.h5 -o x_prev.h5
 echo kept >new_prev.chk
 refused "new_prev.chk already exists" new_prev.chk "$bin/grseg-sim" scene.ini --checkpoint new.chk -o x.h5
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The state that scripts/archives/state.py gives other programs is the run's, in units d_S = g = rho = 1.
+"""The state that scripts/archives/state.py writes for other programs equals the run's state, in units d_S = g = rho = 1.
 
 Usage: peer_state_test.py STATE.py RUN.h5
 """
@@ -13,7 +13,7 @@ exporter, path = sys.argv[1:]
 
 
 def export(*words):
-    """The period, bounds by name, rows of the sections Atoms and Velocities, and the number of grains."""
+    """Period, bounds by name, rows of the sections Atoms and Velocities, and the number of grains."""
     text = subprocess.run([exporter, path, *words], capture_output=True, text=True, check=True).stdout
     sections = text.split("\n\n")
     assert sections[2] == "Atoms" and sections[4] == "Velocities"
@@ -36,7 +36,7 @@ with h5py.File(path, "r") as run:
     end_of_step = grains["position/value"][-1] + half_step * velocity
     spin = grains["angular_velocity/value"][-1]
 
-# Every grain once, inside the box, with its own mass, place, velocity and spin; discs have density 1.
+# Every grain appears once, inside the box, with its own mass, position, velocity and spin; discs have density 1.
 bounds, atoms, motion, count = export()
 box = bounds["xlo"][1]
 assert count == len(atoms) == len(motion) == len(mass)
@@ -53,7 +53,7 @@ assert np.allclose(motion[:, 1:3] * velocity_unit, velocity, rtol=1e-12)
 assert np.allclose(motion[:, 6] * velocity_unit / d, spin, rtol=1e-6) and (motion[:, 3:6] == 0).all()
 assert (motion[fixed, 1:] == 0).all() and (motion[~fixed, 1].mean() > 1)
 
-# An earlier frame where a time is named: that of the last frame up to it.
+# If a time is named, the state is that of the last frame up to this time.
 with h5py.File(path, "r") as run:
     times, grains = run["particles/grains/position/time"][:], run["particles/grains"]
     early = len(times) // 2

@@ -15,7 +15,7 @@ digest=$(cksum run.h5)
 again() { PWD=$folder make --no-print-directory -C "$source/scripts" reanalysis BIN="$bin" WINDOW=0.5 BOOTSTRAP=0 HEIGHTS=all RUNS=run.h5 "$@"; }
 again >log
 [ -s reanalysis/fit.tsv ] && [ -s reanalysis/run.stress.tsv ] || fail "$(cat log)"
-grep -q '^rule  *B \[95 %\]  ' log && grep -q '^size  ' log && grep -q '^kinetic  ' log && grep -q '^B = 0 where' log ||
+grep -q '^rule  *B \[95 %\]  ' log && grep -q '^size  ' log && grep -q '^kinetic  ' log && grep -q '^B = 0 if' log ||
   fail "no short table: $(cat log)"
 grep -q 'degrees_of_freedom' log && fail "the whole table is printed: $(cat log)"
 head -c 9 reanalysis/fit.tsv | grep -q '# program' || fail "fit.tsv is not the whole table"
@@ -36,6 +36,15 @@ PWD=$folder make --no-print-directory -C "$source/scripts" figure BIN="$bin" WIN
 [ "$(grep -c 'bin/grseg-' log)" = 2 ] && [ "$(head -c 4 reanalysis/b-of-p.png | tail -c 3)" = PNG ] ||
   fail "the figure: $(cat log)"
 grep -q grseg-sim log && fail "the figure simulated again"
+# A figure that is refused leaves an earlier picture as it is.
+cp -r reanalysis refused
+sed -i 's/^# input: /&0/' refused/stock.tsv
+! gnuplot -c "$source/scripts/figures/b-of-p.gp" refused >log 2>&1 || fail "tables of different runs are drawn"
+grep -q 'scan.tsv and stock.tsv of ./refused are of different runs' log || fail "$(cat log)"
+cmp -s refused/b-of-p.png reanalysis/b-of-p.png || fail "a refused figure took the picture before with it"
+mv refused/b-of-p.png refused/segregation.png
+! gnuplot -c "$source/scripts/figures/segregation.gp" refused >log 2>&1 || fail "a missing table is drawn"
+cmp -s refused/segregation.png reanalysis/b-of-p.png || fail "a missing table took the picture before with it"
 [ "$(cksum run.h5)" = "$digest" ] || fail "the run was touched"
 code=0
 again RUNS="run.h5 $folder/other/run.h5" >log 2>&1 || code=$?

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Pictures and films as files hold them: pixels at places computed by hand have the colours of their grains,
-vector files have one circle for each image of a grain, the same command gives the same bytes, what is wrong is
-refused in one sentence, and nothing is left where a film fails.
+"""Files of pictures and films: pixels at positions computed by hand have the colours of their grains, vector
+files have one circle for each image of a grain, the same command gives the same bytes, wrong input is refused
+with one sentence, and a film that fails leaves no file.
 Usage: render_test.py GRSEG-RENDER THREE-GRAINS.h5 RUN.h5
 """
 import os
@@ -16,7 +16,7 @@ import time
 import zlib
 
 render, three, run = (os.path.abspath(word) for word in sys.argv[1:])
-folder = tempfile.TemporaryDirectory()  # gone with the script
+folder = tempfile.TemporaryDirectory()  # removed at the end of the script
 os.chdir(folder.name)
 SMALL, LARGE, BOUNDARY, WHITE = (0x56, 0xB4, 0xE9), (0xD5, 0x5E, 0x00), (0xA8, 0xA8, 0xA8), (255, 255, 255)
 BLUE = (0x00, 0x72, 0xB2)
@@ -79,8 +79,8 @@ class Picture:
         return tuple(self.rows[y][3 * x:3 * x + 3])
 
 
-# A width of 500 pixels: letters of 11, so that the margin is 0.8 x 11 = 8.8, and the panel begins there.
-# It shows x from 0 to 0.05 m and y from -0.01 to 0.02 m in 500 - 2 x 8.8 = 482.4 pixels.
+# A picture 500 pixels wide has letters of 11 pixels, so the margin is 0.8 x 11 = 8.8, where the panel begins. The panel
+# shows x from 0 to 0.05 m and y from -0.01 to 0.02 m in 500 - 2 x 8.8 = 482.4 pixels.
 SCALE, EDGE, TOP = 482.4 / 0.05, 8.8, 0.02
 
 
@@ -93,8 +93,8 @@ def near(colour, expected, most=1):
 
 
 def check_pixels():
-    """The last frame: the large grain at (0.053, 0.005) mm, seen here 3 mm from the left, with the small one on it
-    at y = 12.5 mm, over the boundary grain at y = -5 mm."""
+    """The last frame: the large grain is at (0.053, 0.005) mm, here 3 mm from the left edge; the small grain is on it
+    at y = 12.5 mm, the boundary grain below it at y = -5 mm."""
     view = ["--region", "0.05m:0.1m,-0.01m:0.02m", "--width", "500", *BARE]
     picture = Picture(made("three.png", *view))
     # 482.4 x 3/5 + 2 x 8.8 = 307.04, rounded up
@@ -112,9 +112,9 @@ def check_pixels():
 
 
 def check_split():
-    """The branch runs from y = 5 to 12.5 mm: by size it is split at 10, by halves at 8.75 mm."""
+    """The branch runs from y = 5 to 12.5 mm: under size it is split at 10 mm, under half at 8.75 mm."""
     view = ["--region", "0.05m:0.1m,-0.01m:0.02m", "--width", "500", *BARE, "--forces", "--force-width", "5mm"]
-    # The stronger contact, of 1e-3 N, is 5 mm wide; this one, of 2e-4 N, is 1 mm wide.
+    # The line of the stronger contact, 1e-3 N, is 5 mm wide; the line of this contact, 2e-4 N, is 1 mm wide.
     for rule, split in ("size", 10), ("half", 8.75), ("uniform:0.8", 11), ("contact-point", 10):
         picture = Picture(made(f"{rule}.png", *view, "--partition", rule))
         for x in 0.0026, 0.0034:
@@ -127,20 +127,20 @@ def check_split():
 
 
 def circles(svg, colour):
-    """How often an SVG fills with this colour, which versions of cairo write in percent or in parts of 255."""
+    """Number of times that an SVG fills with this colour; versions of cairo write it in percent or in parts of 255."""
     fills = [[float(part[:-1]) * 2.55 if part.endswith("%") else float(part) for part in fill.split(",")]
              for fill in re.findall(r"fill(?::|=\")rgb\(([^)]*)\)", svg)]
     return sum(near(fill, colour, 1e-3) for fill in fills)
 
 
 def check_vectors():
-    """The large grain in frame 0 at x = 0.05: from 0.051 it is cut, and from -0.35 on it is there twice."""
+    """The large grain in frame 0 is at x = 0.05: a region from 0.051 on cuts it, and a region from -0.35 on shows it twice."""
     svg = open(made("once.svg", *BARE)).read()
     assert [circles(svg, c) for c in (SMALL, LARGE, BOUNDARY)] == [1, 1, 1]
     twice = open(made("twice.svg", *BARE, "--region", "-0.35m:0.35m,:")).read()
     assert [circles(twice, c) for c in (SMALL, LARGE, BOUNDARY)] == [2, 2, 2]
     cut = open(made("cut.svg", *BARE, "--region", "0.055m:0.4m,:")).read()
-    # The small one, 2.5 mm, ends at 0.0555; all three come again 0.35 m further on, at 0.403.
+    # The small grain, radius 2.5 mm, ends at 0.0555; all three grains are repeated 0.35 m further on, at 0.403.
     assert [circles(cut, c) for c in (SMALL, LARGE, BOUNDARY)] == [1, 2, 2]
     assert "<desc>program: grseg-render" in svg
     pdf = open(made("three.pdf"), "rb").read()
@@ -151,7 +151,7 @@ def check_vectors():
 
 
 def check_bytes():
-    """The same command gives the same bytes, be it a second later."""
+    """The same command gives the same bytes, also a second later."""
     words = ["--forces", "--partition", "size", "--at", "start,end"]
     first = {}
     for kind in "png", "svg", "pdf":
@@ -176,19 +176,19 @@ def check_refusals():
     refused(2, "2 runs given; render one at a time", three, three, *output)
     refused(2, f"--at 7: {three} goes from 5e-05 s to 0.15005 s", three, "--at", "7", *output)
     refused(2, "--at 'last': write a time in s, start or end", three, "--at", "last", *output)
-    refused(2, "--fps concerns films; name one, as in -o film.mp4, or say --at", three, "--fps", "3", *output)
-    refused(2, "--at makes a picture; of a film say --begin and --end", three, "--at", "0", "-o", "new.mp4")
+    refused(2, "--fps is for films; name a film, as in -o film.mp4, or use --at for a picture", three, "--fps", "3", *output)
+    refused(2, "--at is for pictures; for a film use --begin and --end", three, "--at", "0", "-o", "new.mp4")
     refused(2, "--fps must be positive, and at most 240", three, "--fps", "0", "-o", "new.mp4")
     refused(2, "--every must be positive", three, "--every", "-1", "-o", "new.mp4")
-    refused(2, "--range: species have no range; choose a --color", three, "--range", "0:1", *output)
-    refused(2, "--range '1:0': write the numbers of the first and the last colour, as in 0:0.5", three, "--range", "1:0",
+    refused(2, "--range: species have no range; choose a field with --color", three, "--range", "0:1", *output)
+    refused(2, "--range '1:0': write the values of the first and the last colour, as in 0:0.5", three, "--range", "1:0",
             "--color", "speed", *output)
     refused(2, "--partition needs --forces, whose lines it splits, or --color pressure", three, "--partition", "half",
             *output)
     refused(2, "--plane, --slice and --project are for runs in three dimensions", three, "--project", *output)
     refused(2, "unknown --theme 'drak'; choose light or dark", three, "--theme", "drak", *output)
     refused(2, "--force-width must be positive", three, "--forces", "--force-width", "0", *output)
-    # 64 - 2 x 8.8 = 46.4 pixels for 0.01 mm, and the two margins.
+    # 64 - 2 x 8.8 = 46.4 pixels for 0.01 mm, plus the two margins.
     refused(2, "the picture would be 64 x 4640018 pixels; choose a smaller --width or another --region", three,
             "--width", "64", "--region", "0:1e-5m,0:1m", *BARE, *output)
     refused(2, "the picture is too narrow for its height; choose another --width or --region", three, "--region",
@@ -198,7 +198,7 @@ def check_refusals():
 
 
 def fake(name, text):
-    """A folder with a program ffmpeg that does this; its last argument is file:NAME."""
+    """A folder with a program ffmpeg that runs these commands; its last argument is file:NAME."""
     os.mkdir(name)
     with open(f"{name}/ffmpeg", "w") as program:
         program.write(f"#!/bin/sh\nfor last; do :; done\nfile=${{last#file:}}\n{text}\n")
@@ -207,7 +207,7 @@ def fake(name, text):
 
 
 def check_film_frames():
-    """What ffmpeg is given: four frames of three.h5, whose grains move by a millimetre."""
+    """Input of ffmpeg: four frames of three.h5, whose grains move by a millimetre per frame."""
     keeps = fake("keeps", 'cat > "$file"; printf "%s\\n" "$@" > arguments')
     view = ["--region", "0.05m:0.1m,-0.01m:0.02m", "--width", "500", *BARE]
     raw = open(made("film.mp4", *view, path=keeps), "rb").read()
@@ -219,7 +219,7 @@ def check_film_frames():
     for k in range(4):
         x, y = place(0.001 * k, 0.0125)
         at = k * size + 4 * (int(y) * 500 + int(x))
-        if k > 0:  # of the first half of the grain is seen
+        if k > 0:  # half of the first grain is visible
             assert near(tuple(raw[at + 2 - c] for c in range(3)), SMALL), k
     assert open(made("film.mp4", *view, "--overwrite", "--threads", "3", path=keeps), "rb").read() == raw
     every = open(made("every.mp4", *view, "--every", "0.1", path=keeps), "rb").read()
@@ -227,8 +227,8 @@ def check_film_frames():
     sparse = call(three, *view, "--every", "0.04", "--overwrite", "-o", "every.mp4", path=keeps)
     assert open("every.mp4", "rb").read() == raw
     assert sparse.returncode == 0 and sparse.stderr == (
-        "grseg-render: the frames are 0.05 s apart, so that --every 0.04 takes all of them and the film is 1.25 times as "
-        "fast as asked; --fps 20 keeps the speed\n"), sparse
+        "grseg-render: the frames are 0.05 s apart, so --every 0.04 shows all of them and the film is 1.25 times as "
+        "fast as asked; to keep the speed use --fps 20\n"), sparse
     stride = open(made("stride.mp4", *view, "--stride", "3", "--begin", "0", path=keeps), "rb").read()
     assert stride == raw[:size] + raw[3 * size:]
 
@@ -241,7 +241,7 @@ def check_film_failures():
     fails = fake("fails", 'echo half > "$file"; echo "no\tsuch encoder" >&2; exit 3')
     refused(1, r"ffmpeg failed with exit code 3: no\x09such encoder", run, "-o", "new.mp4", path=fails)
     silent = fake("silent", 'cat > "$file"; exit 4')
-    refused(1, "ffmpeg failed with exit code 4: it says nothing", three, "-o", "new.webm", path=silent)
+    refused(1, "ffmpeg failed with exit code 4: it printed no message", three, "-o", "new.webm", path=silent)
 
     slow = fake("slow", 'echo half > "$file"; sleep 60')
     before = sorted(os.listdir())
@@ -250,7 +250,7 @@ def check_film_failures():
                                    env=dict(os.environ, PATH=slow))
         while program.poll() is None and sorted(os.listdir()) == before:
             time.sleep(0.001)
-        # It reads nothing, so that the pipe is full soon; the signal comes before or in the middle of that.
+        # The program reads nothing, so the pipe is soon full; the signal comes before or during this.
         program.send_signal(number)
         said = program.communicate(timeout=30)[1]
         assert program.returncode == 128 + number, (program.returncode, said)

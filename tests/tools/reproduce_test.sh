@@ -10,7 +10,7 @@ trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 fail() { echo "$1" >&2; exit 1; }
 campaign() {
-  PWD=$folder make --no-print-directory -C "$source/scripts" reproduce BIN="$bin" MIXTURES=0.45 SLOPES=23 SEEDS=1 \
+  PWD=$folder make --no-print-directory -C "${scripts:-$source/scripts}" reproduce BIN="$bin" MIXTURES=0.45 SLOPES=23 SEEDS=1 \
     CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 FIGURES=no CHECKPOINT_EVERY=0.05 "$@"
 }
 # did COMMAND NUMBER: the last call ran the command that many times.
@@ -81,6 +81,19 @@ make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$
 { [ $code = 2 ] && grep -q "phi0.45-s23-seed9: unknown run; make names lists the runs" log; } || fail "an unknown run: $(cat log)"
 /usr/bin/python3 "$source/scripts/reproduce/campaign" scene phi0.45-x3 1 1 1 1 1 >log 2>&1 && fail "an unknown word in a name: $(cat log)"
 grep -q "scene: phi0.45-x3: 'x3' is not a part of a run's name" log || fail "$(cat log)"
+
+# A command that fails ends the campaign; it changes no scene, and nothing is simulated again.
+cp -r "$source/scripts" broken
+scene=$(cksum whole/phi0.45-s23-seed1/scene.ini)
+for command in scene outdated; do
+  sed "s/^def $command(options):/&\n    sys.exit('$command: out of order')/" "$source/scripts/reproduce/campaign/run.py" >broken/reproduce/campaign/run.py
+  scripts=$folder/broken campaign OUT=whole PARTITION=uniform:0.8 KEEP=1 WINDOW=0.5 >log 2>&1 && fail "$command fails, and the campaign goes on: $(cat log)"
+  grep -q "^$command: out of order" log || fail "$(cat log)"
+  did 'campaign simulate' 0
+  did 'campaign table' 0
+  [ "$(cksum whole/phi0.45-s23-seed1/scene.ini)" = "$scene" ] || fail "$command fails, and the scene is changed: $(cat log)"
+done
+grep -q 'phi0.45-s23-seed1: which tables are outdated is unknown' log || fail "no reason is given: $(cat log)"
 
 # A run of the control, whose labels are drawn anew after it, has all tables of a question.
 PWD=$folder make --no-print-directory -C "$source/scripts/reproduce" run NAME=phi0.45-s23-ratio1-t60-seed1 BIN="$bin" OUT=control \

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The numbers of the reproduction, from tables whose results are known in advance.
+"""Numbers of the reproduction study, from tables whose results are known in advance.
 
 Usage: reproduction_numbers_test.py SCRIPTS
 """
@@ -28,7 +28,7 @@ G, SLOPE, D, LENGTH, NU, LAYERS = 9.8, math.radians(30), 0.01, 1.0, 0.8, 10
 
 
 def at_rest(path, frames=(1, 1)):
-    """A bed of ten layers of 1 d in two windows, whose contacts carry exactly the weight above, xx as yy."""
+    """A bed of ten layers of 1 d in two windows, whose contacts carry exactly the weight above; xx equals yy."""
     volume = LENGTH * D
     with open(path, "w") as table:
         table.write(f"# small_diameter: {D}\n# large_diameter: {2 * D}\n# gravity_x: {G * math.sin(SLOPE)}\n"
@@ -45,8 +45,8 @@ def at_rest(path, frames=(1, 1)):
 
 def contacts(y, phi, beyond=0.0, more_ends=1.0, t=0, frames=10):
     """A row of grseg-micro: neutral contacts of discs of 1 d and 2 d in a layer of 4 d, isotropic. Of the stress of mixed
-    contacts the large grains get `beyond` more than 2/3; there are `more_ends` times the SS contacts at forces as
-    much weaker."""
+    contacts the large grains get `beyond` more than 2/3. There are `more_ends` times as many SS contacts, with forces smaller
+    by this factor."""
     r, area, number, force, pressure = 2, 100.0, 1000.0, 3.0, 1.0
     x = phi / (phi + r * (1 - phi))  # fraction of ends on large grains
     n = {"SS": (1 - x) ** 2 * number, "LS": 2 * x * (1 - x) * number, "LL": x ** 2 * number, "Sb": 0.0, "Lb": 0.0}
@@ -105,20 +105,20 @@ class Reproduction(unittest.TestCase):
     def test_windows_taken_together_weight_by_frames_and_keep_the_sums(self):
         names = ["t0", "t1", "y0", "y1", "frames", "V", "sum"]
         rows = [[0, 1, 0, 1, 3, 7, 10], [0, 1, 1, 2, 3, 7, 4], [1, 2, 0, 1, 1, 7, 2]]
-        # The upper layer is not there in the second window: empty in one frame of four.
+        # The upper layer is missing in the second window: it is empty in one frame of four.
         self.assertEqual(keep.coarse(rows, 2, names.index),
                          [[0, 2, 0, 1, 4, 7, 8], [0, 2, 1, 2, 4, 7, 3]])
-        # Windows of another program are a little shorter: 0.999 s each.
+        # Windows of another program are slightly shorter: 0.999 s each.
         short = [[0.999 * k, 0.999 * (k + 1), 0, 1, 1, 7, k] for k in range(4)]
         self.assertEqual([row[:2] for row in keep.coarse(short, 2, names.index)], [[0, 2 * 0.999], [2 * 0.999, 4 * 0.999]])
-        # A composition is that of the frames that have the layer.
+        # A composition is averaged over the frames that contain the layer.
         self.assertEqual(keep.coarse(rows, 2, names.index, of_present=[6]),
                          [[0, 2, 0, 1, 4, 7, 8], [0, 2, 1, 2, 4, 7, 4]])
 
     def test_a_straight_line_has_its_slope_and_level_and_no_error(self):
         slope, level = measured.line_fit([0, 1, 2, 3], [1, 3, 5, 7])
         self.assertEqual([slope.value, slope.low, slope.high, level.value], [2, 2, 2, 1])
-        # Residuals 0.1, -0.2, 0.1: their sum of squares over one degree of freedom, t = 12.706.
+        # Residuals 0.1, -0.2, 0.1: sum of squares over one degree of freedom, t = 12.706.
         slope, _ = measured.line_fit([-1, 0, 1], [0.1, -0.2, 0.1])
         self.assertAlmostEqual(slope.high, 12.706 * math.sqrt(0.06 / 2), 9)
 
@@ -128,12 +128,12 @@ class Reproduction(unittest.TestCase):
         self.assertEqual(verdict(0.08, 0.06, 0.14), verdicts.AGREES)
         self.assertEqual(verdict(0.04, 0.03, 0.045), verdicts.DIFFERS)
         self.assertEqual(verdict(0.2, 0.16, 0.24), verdicts.DIFFERS)
-        # Crossing an edge, also both of them, decides nothing, wherever the value itself lies.
+        # If the interval crosses an edge, or both edges, the verdict is undecided, wherever the value is.
         self.assertEqual(verdict(0.1, 0.04, 0.12), verdicts.UNDECIDED)
         self.assertEqual(verdict(0.2, 0.14, 0.26), verdicts.UNDECIDED)
         self.assertEqual(verdict(0.04, 0.02, 0.06), verdicts.UNDECIDED)
         self.assertEqual(verdict(0.1, -0.2, 0.4), verdicts.UNDECIDED)
-        # A value without interval is not judged by itself.
+        # A value without an interval is not judged.
         self.assertEqual(verdict(0.1), verdicts.UNDECIDED)
         self.assertEqual(verdict(math.nan), "not measured yet")
         self.assertEqual(value(-0.0001, -0.02, 0.01).text(2), "0.00 [−0.02, 0.01]")
@@ -149,10 +149,10 @@ class Reproduction(unittest.TestCase):
     def test_the_difference_is_in_standard_errors_of_both_sides(self):
         ours = measured.Value(3, -5, 11, 3)
         self.assertAlmostEqual(verdicts.difference(ours, statements.number("0 ± 4", 0, 1, "", error=4)), 0.6)
-        # Rounded to 0.1 a number is uniform between -0.05 and 0.05: 0.1/sqrt(12).
+        # A number rounded to 0.1 has an error that is uniform between -0.05 and 0.05: 0.1/sqrt(12).
         rounded = statements.number("0.3", 0.3, 1, "", unit=0.1)
         self.assertAlmostEqual(verdicts.difference(measured.Value(0.3 + 0.1 / math.sqrt(12), 0, 1, 0), rounded), 1)
-        # From the edge of a claim; a range without a number has no place to count from.
+        # Differences count from the edge of a claim; for a range without a number there is nothing to count from.
         self.assertAlmostEqual(verdicts.difference(ours, statements.above("> 9", 9, "")), -2)
         self.assertTrue(math.isnan(verdicts.difference(ours, statements.Statement("", 0, 1, ""))))
         self.assertTrue(math.isnan(verdicts.difference(measured.Value(3), rounded.__class__("", 0, 1, "", 0))))
@@ -179,7 +179,7 @@ class Reproduction(unittest.TestCase):
         inside, outside, uncounted, made = target(0, "a"), target(5, "a"), target(5, ""), target(5, "b", "slope")
 
         class Measured:
-            likely = {"slope": 0.966 + 1.9 * 0.005, "slope error": 0.004}  # with the paper's 0.003: 0.005
+            likely = {"slope": 0.966 + 1.9 * 0.005, "slope error": 0.004}  # with the 0.003 of Staron & Phillips: 0.005
         found = list(targets.judged(Measured, lambda m: [inside, outside, uncounted, made]))
         self.assertEqual([one.verdict() for one in found], [verdicts.AGREES, verdicts.DIFFERS, verdicts.DIFFERS, verdicts.LIKELY])
         self.assertEqual(targets.independent(found), [verdicts.DIFFERS, verdicts.LIKELY])
@@ -198,7 +198,7 @@ class Reproduction(unittest.TestCase):
                 self.assertEqual(verdicts.verdict(measured.Value(*[statement.value] * 3), statement), verdicts.AGREES)
 
     def test_figure_4_is_judged_by_its_points_not_by_slope_and_level_of_a_fitted_line(self):
-        # These points rise with the shear rate, and slope and level of their line are near the paper's.
+        # These points rise with the shear rate; slope and level of their line are near those of Staron & Phillips.
         rates, low = (0.3, 0.5, 0.7), (0.2765, 0.3125, 0.3535)
 
         class Flows:
@@ -212,7 +212,7 @@ class Reproduction(unittest.TestCase):
 
         target, rises = targets.shear_rate(Flows())
         self.assertEqual((target.verdict(), rises.verdict()), (verdicts.DIFFERS, verdicts.AGREES))
-        # The line is 0.3715, 0.4125, 0.4535 there.
+        # There the line has the values 0.3715, 0.4125, 0.4535.
         self.assertEqual(target.ours, "−0.100 [−0.110, −0.090] to −0.095 [−0.105, −0.085]")
         self.assertAlmostEqual(target.difference(), -0.1 / math.hypot(0.005, 0.001 / math.sqrt(12)), 3)
         Flows.lift = 0.09
@@ -222,45 +222,46 @@ class Reproduction(unittest.TestCase):
 
     def test_neutral_contacts_have_no_B_and_what_large_grains_get_beyond_is_its_cause(self):
         mixed = [contacts(4 * k * D, phi) for k, phi in enumerate((0.3, 0.1, 0.4, 0.7))]
-        # The lowest layer is not inside.
+        # The lowest layer is not inside the range of heights.
         layers = layers_of(self.table, mixed)
         self.assertEqual([round(layer.phi, 9) for layer in layers], [0.1, 0.4, 0.7])
         found, terms = rise.factors(layers), rise.terms(layers)
         self.assertAlmostEqual(found["B"], 0, 12)
         self.assertAlmostEqual(found["mixed"], 1, 12)
-        # Of one composition the geometry is 3/(1 + phi_S).
+        # For a single composition the geometry factor is 3/(1 + phi_S).
         self.assertAlmostEqual(rise.factors(layers[:1])["geometry"], 3 / 1.9, 12)
         for name in ("ends", "forces", "pairing", "normal", "log"):
             self.assertAlmostEqual(terms[name], 0, 12)
         self.assertAlmostEqual(terms["LS/neutral"], 1, 12)
         self.assertAlmostEqual(terms["LS/random"], 1, 12)
-        # 0.02 beyond 2/3: B = 0.02 * 3/(1 + phi_S) at each composition.
+        # A share 0.02 above 2/3: B = 0.02 * 3/(1 + phi_S) at each composition.
         for phi in (0.1, 0.4, 0.7):
             found = rise.factors(layers_of(self.table, [contacts(4 * D, phi, 0.02)]))
             self.assertAlmostEqual(found["beyond"], 0.02, 12)
-            # The share by size is 2/3 and 0.02, and with 2/3 B would be 0.
+            # The share under size is 2/3, plus 0.02; with 2/3 B would be 0.
             self.assertAlmostEqual(found["p_star"], 2 / 3, 12)
             self.assertAlmostEqual(found["B"], 0.02 * 3 / (2 - phi), 12)
 
     def test_contacts_and_forces_take_apart_what_the_stress_says(self):
-        # Twice the SS contacts at half the force carry the same stress: s is 1, ends and forces cancel.
+        # Twice as many SS contacts at half the force carry the same stress: s is 1, and the factors of ends and forces
+        # cancel.
         phi = 0.5
         terms = rise.terms(layers_of(self.table, [contacts(4 * D, phi, more_ends=2)]))
         # Ends: SS 4/9, LS 4/9, LL 1/9 of the contacts; on small grains 2 * 8/9 + 4/9 instead of 2 * 4/9 + 4/9.
         self.assertAlmostEqual(terms["ends"], -math.log((16 + 4) / (8 + 4)), 12)
         self.assertAlmostEqual(terms["forces"] + terms["pairing"], math.log((16 + 4) / (8 + 4)), 12)
-        # Paired at random, the 20 ends of small grains meet 6 of large ones: mean forces 3/2 and 3.
+        # If paired at random, the 20 ends of small grains meet 6 ends of large ones: mean forces 3/2 and 3.
         at_random = (20 * 1.5 + 6 * 3) / (20 * 3 + 6 * 3)
         self.assertAlmostEqual(terms["forces"], -math.log(at_random), 12)
         self.assertAlmostEqual(terms["log"], 0, 12)
         self.assertAlmostEqual(terms["LS/random"], 4 / (13 * 2 * (20 / 26) * (6 / 26)), 12)
-        # A layer of two large grains has no part in the logarithms.
+        # A layer of two large grains is left out of the logarithms.
         few = {**contacts(8 * D, phi), "grains_L": 2}
         self.assertAlmostEqual(rise.terms(layers_of(self.table, [contacts(4 * D, phi, more_ends=2), few]))["ends"], terms["ends"], 12)
 
     def test_windows_merge_by_frames_and_composition_that_grows_upward_has_a_positive_gradient(self):
         rows = [contacts(4 * k * D, 0.2 + 0.1 * k, t=t, frames=frames) for t, frames in ((0, 10), (2.5, 30)) for k in range(4)]
-        for row in rows[:4]:  # in the first 2.5 s there is no large grain
+        for row in rows[:4]:  # the first 2.5 s have no large grain
             row.update({name: 0.0 for name in row if name in ("area_L", "grains_L") or "_LL" in name or "_LS" in name or name[0] == "M"})
         layers = layers_of(self.table, rows)
         for layer, phi in zip(layers, (0.3, 0.4)):
@@ -277,7 +278,7 @@ class Reproduction(unittest.TestCase):
         by_layer = [(0.3, bed(low, lambda phi: 0.02 * phi)), (0.5, bed(high, lambda phi: 0.02 * phi))]
         self.assertGreater(rise.trend_where_alike(by_layer, ()), 0.01)
         self.assertAlmostEqual(rise.trend_where_alike(by_layer, ("phi",)), 0, 12)
-        # A trend of the mixture itself stays: 0.01 more on a difference of 0.2, times 3/(1 + phi_S).
+        # A trend of the mixture itself remains: 0.01 more on a difference of 0.2, times 3/(1 + phi_S).
         of_mixture = [(0.3, bed([0.3, 0.3], lambda _: 0.01)), (0.5, bed([0.3, 0.3], lambda _: 0.02))]
         self.assertAlmostEqual(rise.trend_where_alike(of_mixture, ("phi",)), 0.05 * 3 / 1.7, 12)
 
@@ -285,10 +286,10 @@ class Reproduction(unittest.TestCase):
         d, layers = 0.005, 10
 
         def bed(large_at):
-            """Way and mixing of a bed of ten layers, of which three tenths of the area are large grains."""
+            """Rise and mixing of a bed of ten layers; three tenths of its area are large grains."""
             with open(self.table, "w") as table:
                 table.write("t1[s]\ty0[m]\tarea_S[m^2]\tarea_L[m^2]\tgrains_L\n")
-                for t in (1, 2):  # in the first window large grains are below
+                for t in (1, 2):  # in the first window large grains are in the lower layers
                     for k in range(layers):
                         large = large_at(k) if t == 2 else float(k < 3)
                         table.write(f"{t}\t{k * d}\t{1 - large}\t{large}\t{5 * large}\n")

@@ -1,22 +1,32 @@
 #!/usr/bin/python3
-"""numbers, fits, flows and choices as whole programs, on runs whose results are known in advance.
+"""numbers, fits, flows, choices and mixtures as whole programs, on runs whose results are known in advance.
 
 Usage: reproduction_pipeline_test.py SCRIPTS
 """
+import argparse
 import math
 import os
 import subprocess
 import sys
+import tarfile
 import tempfile
+import time
 import unittest
+from unittest import mock
 
 import numpy as np
 
 sys.dont_write_bytecode = True
-from known_campaign import Campaign, D, G, HEAD, Pipeline, RHO, SLOPE, UNIT, fitted, text_of  # noqa: E402
+from known_campaign import Campaign, D, G, HEAD, Pipeline, RHO, SLOPE, UNIT, campaign, fitted, scripts, text_of  # noqa: E402
+import flows  # noqa: E402
+import keep  # noqa: E402
 import measured  # noqa: E402
 import measures as numbers  # noqa: E402
 import profiles  # noqa: E402
+import questions  # noqa: E402
+import rise  # noqa: E402
+import rounding  # noqa: E402
+import stages  # noqa: E402
 import statements  # noqa: E402
 import tables  # noqa: E402
 import targets  # noqa: E402
@@ -27,7 +37,7 @@ NAN = math.nan
 
 
 def layer(n, t=0, small=0.5, large=0.5, frames=1, **sums):
-    """A row of layer n, 4 d_S high, of a cell of 70 d_S, filled to 0.8 by both species in these proportions."""
+    """A row of layer n, 4 d_S high, in a cell of 70 d_S, filled to 0.8 by both species in these proportions."""
     height, volume = 4 * D, 70 * D * 4 * D
     row = {"t0": t, "t1": t + 1, "y0": n * height, "y1": (n + 1) * height, "frames": frames, "V": volume,
            "area_S": 0.8 * volume * small, "area_L": 0.8 * volume * large}
@@ -37,7 +47,7 @@ def layer(n, t=0, small=0.5, large=0.5, frames=1, **sums):
 
 
 def moving(n, t=0, energy=0.0, bias=0.0):
-    """Of the kinetic table: energy to each species in xx and yy, and what the layer's mean adds to xx."""
+    """Row of the kinetic table: energy of each species in xx and yy, and the part that the layer's mean adds to xx."""
     row = {"t0": t, "t1": t + 1, "y0": n * 4 * D, "y1": (n + 1) * 4 * D, "frames": 1}
     for s in "SL":
         row.update({f"K_{s}_xx": energy / 2, f"K_{s}_yy": energy / 2, f"layer_bias_{s}_xx": bias, f"layer_bias_{s}_yy": 0})
@@ -45,14 +55,14 @@ def moving(n, t=0, energy=0.0, bias=0.0):
 
 
 class Numbers(Pipeline):
-    """The measurements of scripts/reproduce/campaign numbers one by one, on a run and on answers known by heart."""
+    """The measurements of scripts/reproduce/campaign numbers one by one, on a run and on answers that are known."""
 
     def part(self, **quantities):
         self.campaign.run("phi0.30-s23-seed1", **quantities)
         return numbers.Part(tables.runs_in(self.campaign.tables))
 
     def with_answers(self, answer, measure, part):
-        """`answer(words)` gives the rows that a program prints."""
+        """Replaces programs: `answer(words)` returns the rows that a program prints."""
         told, numbers.tables.program = numbers.tables.program, \
             lambda options, name, *words: ({}, answer([name, *map(str, words)]))
         try:
@@ -61,7 +71,7 @@ class Numbers(Pipeline):
             numbers.tables.program = told
 
     def bed(self, layers=15, prefactor=0.5, decay=7.5):
-        """A bed at rest whose mixed contacts carry the weight above, and that is hot as
+        """A bed at rest whose mixed contacts carry the weight above. Its temperature is
         prefactor exp(-y/(decay d_L)) rho g d_S, per bulk volume."""
         stress, kinetic = [], []
         for n in range(layers):
@@ -78,16 +88,16 @@ class Numbers(Pipeline):
         self.assertAlmostEqual(found["K_prefactor"], 0.5, 9)
         self.assertAlmostEqual(found["K_decay"], 7.5, 9)
         self.assertAlmostEqual(found["K_solid_prefactor"], 0.5 / 0.8, 9)
-        # 4 to 56 d_S: the lowest of the layers 4 d_S high lies around 6 d_S.
+        # Heights from 4 to 56 d_S: the lowest layer, 4 d_S high, is around 6 d_S.
         self.assertAlmostEqual(found["K_lowest"], 0.5 * math.exp(-6 / 15), 9)
-        # About the layer's mean two biases of a quarter are added to xx, half of which is pressure.
+        # About the layer's mean, two biases of a quarter are added to xx; half of each is pressure.
         self.assertAlmostEqual(found["shear_share"], 0.25, 9)
 
     def test_mixed_contacts_alone_may_carry_the_whole_bed(self):
         self.assertAlmostEqual(self.bed()["weight"], 1, 9)
 
     def test_b_of_the_micro_structure_weighs_by_frames_and_grains_of_the_rarer_species_within_a_hundred_to_one(self):
-        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of nearly pure small grains is left out.
+        # ln s is -0.1 with weight 2 x 30 and -0.4 with 1 x 20; a layer of almost only small grains is left out.
         frames, weights, phis = (2, 1, 5), (30, 20, 1), (0.5, 0.3, 0.001)
         slopes = (math.exp(-0.1), math.exp(-0.4), 5.0)
         part = self.part(micro=[{"t0": 0.0, "y0": float(k), "grains_S": w, "grains_L": w + 7} for k, w in enumerate(weights)])
@@ -116,7 +126,7 @@ class Numbers(Pipeline):
 
     def test_the_end_of_figure_6_is_the_mean_of_its_last_twelve_and_a_half_seconds(self):
         rows = []
-        for k in range(20):  # windows of 2.5 s: five of them are the end
+        for k in range(20):  # windows of 2.5 s; the last five are the end
             late = k >= 15
             rows.append({"t0": 2.5 * k, "t1": 2.5 * (k + 1), "y0": NAN, "yL/H": 0.02 * k, "z_S": 2.0,
                          "z_L": 2.0 + (0.5 + 0.1 * (k - 17) if late else 1.0 if k == 4 else 0), "f_S": 1.0,
@@ -135,7 +145,8 @@ class Numbers(Pipeline):
         self.assertAlmostEqual(found["push_kinetic"], -1000 * 0.02 / 4)
 
     def test_large_grains_have_gone_the_whole_way_where_they_fill_the_upper_part_of_the_bed(self):
-        # 30 % of large grains: their centre lies at 0.15 of the height below, at 0.85 above the small ones.
+        # 30 % of large grains: their centre of mass is at 0.15 of the height if they are below the small ones, at 0.85
+        # if above.
         def way(height):
             micro = [{"t1": 1.0, "y0": 0.0, "area_S": 0.7, "area_L": 0.0, "grains_L": 0},
                      {"t1": 1.0, "y0": 1.0, "area_S": 0.0, "area_L": 0.3, "grains_L": 9}]
@@ -194,7 +205,7 @@ class Fits(Pipeline):
             self.assertNotIn("--end", words)
         control = [words for words in asked if runs(words) == ["phi0.45-s23-ratio1-seed1"]]
         self.assertTrue(control and all(words[1].endswith("stress-random.tsv") for words in control))
-        # Without the lowest layer and the surface, except where all heights are asked for.
+        # Without the lowest layer and the surface, unless all heights are asked for.
         self.assertEqual({words[words.index("--heights") + 1] for words in asked if "--heights" in words}, {"4dS:56dS", "all"})
 
 
@@ -250,11 +261,133 @@ class Choices(Pipeline):
         self.campaign.answer("kinetic.tsv", "--end", rows=at(-0.1))
         self.campaign.answer("kinetic.tsv", rows=at(-0.3))
         rows = {row["choice"]: row for row in self.campaign.made_by("choices")}
-        # Another simulation with the first 60 s of the flow, another booking of the same frames with all of them.
+        # Another simulation is compared with the first 60 s of the flow; another evaluation of the same frames with all
+        # of them.
         self.assertAlmostEqual(rows["restitution 0.5 instead of 0.25"]["less"], 0.4)
         self.assertAlmostEqual(rows["restitution 0.5 instead of 0.25"]["K_less"], -0.4)
         self.assertAlmostEqual(rows["contacts booked along the branch"]["less"], 0.05)
         self.assertEqual(rows["all times"]["less"], 0)
+
+    def test_a_choice_whose_base_is_missing_is_compared_with_none(self):
+        self.campaign.run("phi0.45-s23-seed1")
+        for variant, b in (("e0.5", 0.5), ("draft", 0.7)):
+            self.campaign.run(f"phi0.45-s23-{variant}-seed1", stress=[layer(0)])
+            self.campaign.answer(f"{variant}-seed1/stress.tsv", rows=fitted("size", B_windows=b) + fitted("half", B_windows=b))
+        rows = self.campaign.made_by("choices")
+        self.assertEqual([(row["B"], row["less"]) for row in rows], [(0.5, 0), (0.7, 0)])
+
+
+class Mixtures(Pipeline):
+    def test_each_mixture_has_a_scan_and_a_row_for_each_rule(self):
+        for name in ("phi0.30-s23-seed1", "phi0.30-s23-seed2", "phi0.45-s23-e0.5-seed1"):
+            self.campaign.run(name, stress=[layer(0)])
+        self.campaign.answer("--scan", rows=[{"p": 0.6, "B": 0.01}])
+        self.campaign.answer("--partition", rows=fitted("size", B=(0.03, 0.02, 0.04), share=0.66) + fitted("half", B=-0.2, share=0.5))
+        rows = self.campaign.made_by("mixtures", table="rules.tsv")
+        self.assertEqual([[row[name] for name in ("flow", "phi", "runs", "rule", "B", "share")] for row in rows],
+                         [["phi0.30-s23", 0.3, 2, "size", 0.03, 0.66], ["phi0.30-s23", 0.3, 2, "half", -0.2, 0.5]])
+        _, scan = tables.read(os.path.join(self.campaign.folder, "made.tsv", "scan-phi0.30-s23.tsv"))
+        self.assertEqual(scan, [{"p": 0.6, "B": 0.01}])
+
+
+class Profiles(unittest.TestCase):
+    """scripts/profile --balance on tables that are known."""
+
+    def profile(self, drifts, *words):
+        """The script's exit code, rows and messages for one layer with these drifts, one in each window of 1 s."""
+        zero = {f"{term}_{s}_{axis}": 0.0 for term in ("rate", "gravity", "contact", "kinetic", "interaction", "base", "residual")
+                for s in "SL" for axis in "xy"}
+        rows = [{"t0": t, "t1": t + 1, "y0": 0.0, "y1": 4 * D, "phi_L": 0.5, "psi_L": 0.6, "psik_L": 0.4, "push": 0.0,
+                 "push_kinetic": 0.0, "scatter": 0.0, "rho_L": 1.0, **zero, "gravity_L_y": -1.0, "drag": -3.0, "drift": drift}
+                for t, drift in enumerate(drifts)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "balance.tsv")
+            with open(path, "w") as table:
+                table.write(text_of(rows, HEAD))
+            done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, "profile"), "--balance", path, *words],
+                                  capture_output=True, text=True)
+        return done.returncode, tables.parse(done.stdout)[1] if done.stdout else [], done.stderr
+
+    def test_c_is_missing_only_where_the_drift_is_known_to_be_small(self):
+        for drifts, c in (((2.0,), 1.5), ((2.0, 2.1, 1.9), 1.5), ((2.0, -1.9), NAN)):
+            with self.subTest(drifts):
+                _, [row], _ = self.profile(drifts)
+                np.testing.assert_allclose(row["c"], c)
+
+    def test_the_last_third_of_a_balance_leaves_out_earlier_windows(self):
+        _, [row], _ = self.profile((1.0, 1.0, 6.0), "--last-third")
+        self.assertEqual((row["windows"], row["drift"]), (1, 6))
+
+    def test_tables_of_kinetic_stress_beside_a_balance_are_refused(self):
+        code, _, words = self.profile((1.0,), "--kinetic", "kinetic.tsv")
+        self.assertEqual(code, 2)
+        self.assertIn("--kinetic is for stress tables; leave it out with --balance\n", words)
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+
+    def test_a_table_with_a_changed_digit_is_refused_by_all_that_use_its_numbers(self):
+        path, whole = (os.path.join(self.folder, name) for name in ("changed.tsv", "whole.tsv"))
+        text = tables.shared.sealed("# program: grseg-stress\nt0[s]\tt1[s]\ty0[m]\n0\t1\t0\n")
+        for name, of in ((whole, text), (path, text.replace("0\t1\t0\n", "0\t2\t0\n"))):
+            with open(name, "w") as table:
+                table.write(of)
+
+        class Run:
+            flow = "phi0.45-s23"
+
+            def path(self, _):
+                return path
+
+            def has(self, _):
+                return True
+
+        run = Run()
+        uses = {"last_third": lambda: profiles.last_third(path), "Profile": lambda: profiles.Profile([path]),
+                "beside": lambda: profiles.Layers([whole], [path]), "rise": lambda: rise.layers_of(path),
+                "flows": lambda: flows.weight([run]), "stages": lambda: stages.points_of(run, None),
+                "rounding": lambda: rounding.of_tables([path]), "parts_of": lambda: numbers.parts_of([run]),
+                "last_layers": lambda: numbers.last_layers(numbers.Part([run])),
+                "b_of_structure": lambda: numbers.b_of_structure(None, [run], []), "of_bed": lambda: questions.of_bed(run),
+                "force_ratio": lambda: questions.force_ratio(run), "line": lambda: questions.line(None, run.flow, [run], [])}
+        for name, use in uses.items():
+            with self.subTest(name), self.assertRaisesRegex(SystemExit, f"^{path}: does not agree with .*; it is damaged, make it again$"):
+                use()
+        for words in (["profile", path], ["archives/stress-atom", "run.h5", path, "atoms.dump"]):
+            with self.subTest(words[0]):
+                done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(scripts, words[0]), *words[1:]], capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stdout), (1, ""))
+                self.assertRegex(done.stderr, f"^{path}: does not agree with .*; it is damaged, make it again\n$")
+        with self.assertRaisesRegex(SystemExit, "^nowhere.tsv: No such file or directory$"):
+            profiles.last_third("nowhere.tsv")
+
+    def test_unpacked_tables_are_newer_than_what_was_made_from_those_before(self):
+        options = argparse.Namespace(kept=self.folder, folder=os.path.join(self.folder, "unpacked"))
+        archive, stale = os.path.join(self.folder, "tables.tar.bz2"), os.path.join(options.folder, "stale.tsv")
+        with tarfile.open(archive, "w:bz2") as kept:
+            kept.addfile(tarfile.TarInfo("phi0.30-s23-seed1/stress.tsv"))
+        os.mkdir(options.folder)
+        with open(stale, "w"):
+            pass
+        before = time.time()
+        keep.unpack(options)
+        self.assertGreater(os.path.getmtime(os.path.join(options.folder, "phi0.30-s23-seed1", "stress.tsv")), before - 1)
+        self.assertFalse(os.path.exists(stale))
+        os.utime(archive, (before + 60, before + 60))
+        with mock.patch("os.rmdir", side_effect=PermissionError), self.assertRaises(PermissionError):
+            keep.unpack(options)
+
+    def test_messages_of_a_tool_are_seen_and_the_log_has_only_the_cost_of_its_table(self):
+        done = subprocess.run(["/usr/bin/python3", "-B", os.path.abspath(campaign), "table", "x.tsv", "sh", "-c", "echo doubt >&2; echo table"],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", "doubt\n"))
+        with open(os.path.join(self.folder, "x.tsv")) as table, open(os.path.join(self.folder, "run.log")) as log:
+            self.assertEqual(table.read(), "table\n")
+            self.assertRegex(log.read(), r"^x\.tsv made in \S+ s, processor \S+ \+ \S+ s\n$")
 
 
 class Statistics(unittest.TestCase):
@@ -262,7 +395,7 @@ class Statistics(unittest.TestCase):
         for freedom, t in tables.shared.STUDENT.items():
             if freedom > 1000:
                 continue
-            # The density of t, integrated by Simpson's rule, from 0 to the quantile: 0.475.
+            # Density of Student's t, integrated by Simpson's rule from 0 to the quantile: 0.475.
             log = math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2) - math.log(freedom * math.pi) / 2
             density = lambda x: math.exp(log - (freedom + 1) / 2 * math.log1p(x * x / freedom))
             n = 2000
@@ -280,7 +413,7 @@ class Statistics(unittest.TestCase):
     def test_the_level_of_a_line_at_0_is_less_certain_the_farther_off_the_points_are(self):
         x, off = [9.0, 10.0, 11.0], [0.1, -0.2, 0.1]
         _, level = measured.line_fit(x, off)
-        # Variance of a residual 0.06 over one degree of freedom; at x = 0, 10 from the mean: 1/3 + 100/2 of it.
+        # Residual variance 0.06 over one degree of freedom; at x = 0, which is 10 from the mean: 1/3 + 100/2 of it.
         self.assertAlmostEqual(level.high - level.value, 12.706 * math.sqrt(0.06 * (1 / 3 + 50)), 9)
 
     def test_the_negative_of_an_interval_is_turned_round(self):
@@ -323,7 +456,7 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(targets.sign_of_b(m).verdict(), verdicts.DIFFERS)
 
     def test_a_number_rounded_to_hundredths_is_as_uncertain_as_one_drawn_evenly_between_its_neighbours(self):
-        # Variance of an even distribution of width w: w^2/12.
+        # Variance of a uniform distribution of width w: w^2/12.
         self.assertAlmostEqual(statements.number("0.98", 0.98, 0.1, "", unit=0.01).error, 0.01 / math.sqrt(12), 12)
 
     def test_the_difference_is_in_standard_errors_of_both(self):

@@ -52,7 +52,7 @@ mv runTERM.chk run.chk
 # shellcheck disable=SC2086
 stopped KILL on.chk 0.05 $chute --duration 10 --continue -o on.h5
 # shellcheck disable=SC2086
-refused 2 "on.chk and on.h5.part belong to an interrupted run: --continue goes on with it, --overwrite begins again" \
+refused 2 "on.chk and on.h5.part belong to an interrupted run: --continue continues it, --overwrite begins again" \
   $chute --duration 10 --checkpoint on.chk -o on.h5
 # shellcheck disable=SC2086
 $bin/grseg-sim --quiet $chute --duration 10 --checkpoint on.chk --continue -o on.h5
@@ -62,7 +62,7 @@ before=$(cksum on.h5)
 $bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 2>words
 grep -q '^grseg-sim: on.h5 is finished$' words && [ "$(cksum on.h5)" = "$before" ] || fail "a finished run: $(cat words)"
 # shellcheck disable=SC2086
-refused 2 "--continue goes on from --checkpoint FILE, without --restart" $chute --continue -o other.h5
+refused 2 "--continue needs --checkpoint FILE, and cannot be combined with --restart" $chute --continue -o other.h5
 
 # Prolonged, it is the run that was longer from the beginning; killed on the way, nothing of it is lost.
 # shellcheck disable=SC2086
@@ -127,7 +127,7 @@ content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 stopped INT old.chk 0.1 $chute --duration 10 --checkpoint-every 0 -o old.h5
 head -c 20000 old.chk >torn
 mv torn old.chk
-refused 3 "old.chk: is not a checkpoint, or is truncated or damaged; old_prev.chk is the checkpoint before it" \
+refused 3 "old.chk: is not a checkpoint, or is truncated or damaged; old_prev.chk is the previous checkpoint" \
   --restart old.chk -o old.h5
 "$bin/grseg-sim" --quiet --restart old_prev.chk --checkpoint old.chk --overwrite -o old.h5
 content old.h5 | cmp - whole || fail "a restart from the checkpoint before the last one changed the run"
@@ -181,19 +181,19 @@ refused 3 "whole.h5: is not a checkpoint of grseg-sim; name the file that --chec
   --restart whole.h5 -o x.h5
 head -c 20000 two.chk >torn.chk
 refused 3 "torn.chk: is not a checkpoint, or is truncated or damaged" --restart torn.chk -o x.h5
-refused 2 "phi-large differs from the checkpoint's: it belongs to the bed, which a restart keeps; leave it out, or begin a new run without --restart" \
+refused 2 "phi-large differs from the checkpoint's: it belongs to the bed, which a restart cannot change; leave it out, or begin a new run without --restart" \
   --restart two.chk --phi-large 0.3 -o x.h5
-refused 2 "two.chk is at t = 2 s and the run ends at 2 s; a larger --duration prolongs it" --restart two.chk -o x.h5
+refused 2 "two.chk is at t = 2 s, and the run ends at 2 s; choose a larger --duration" --restart two.chk -o x.h5
 refused 2 "--perturb is 0.5: it must lie between 0 and 0.01 d_S" --restart two.chk --perturb 0.5 -o x.h5
 refused 2 "--perturb displaces the grains of a checkpoint; name one with --restart" --perturb 1e-6 -o x.h5
 refused 2 "two.chk already exists; choose another name, remove it, or pass --overwrite" \
   --restart run.chk --checkpoint two.chk -o x.h5
-refused 2 "checkpoint and trajectory cannot be one file; name another for --checkpoint" \
+refused 2 "checkpoint and trajectory cannot be the same file; choose another name for --checkpoint" \
   --restart run.chk --checkpoint x.h5 -o x.h5
 
 # A .part of another run stays as it is.
 cp two.h5 x.h5.part
-refused 2 "x.h5.part does not hold the frames of run.chk; move it away to begin a new trajectory, or choose another name for --output" \
+refused 2 "x.h5.part does not contain the frames of run.chk; move it away to begin a new trajectory, or choose another name for --output" \
   --restart run.chk -o x.h5
 refused 2 "x.h5.part already exists; choose another name, remove it, or pass --overwrite" \
   --restart run.chk --slope 22 -o x.h5

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""B of a real run from sums with all their digits and from the same sums as scripts/reproduce/campaign/keep.py rounds them: they
-differ by no more than rounding can do, with both bounds computed from the digits alone (scripts/reproduce/campaign/rounding.py).
+"""B of a real run from sums with all digits, and from the same sums as scripts/reproduce/campaign/keep.py rounds them. They differ
+by no more than rounding explains; both bounds are computed from the digits alone (scripts/reproduce/campaign/rounding.py).
 Usage: rounding_test.py SOURCE BIN"""
 import json
 import os
@@ -19,7 +19,7 @@ DIGITS = 2
 
 
 class Run:
-    """One finished run, as keep knows them."""
+    """One finished run in the form that keep expects."""
     flow = "sample"
 
     def __init__(self, path):
@@ -57,10 +57,10 @@ def main():
               f"one digit {coarse - exact:+.5f}")
         assert change != 0, "nothing was rounded"
         assert abs(rounded - bound["B"]) < 1e-6, "the points of grseg-fit are others"
-        # Errors uniform within half a unit: beyond four standard deviations once in 16,000.
+        # Errors are uniform within half a unit: they exceed four standard deviations once in 16,000 cases.
         assert abs(change) < 4 * rms
         assert abs(change) < bound["worst"]
-        # Half the digits are ten times as coarse.
+        # Half the digits are coarser by a factor of ten.
         of_coarse = rounding.of_tables([os.path.join(work, "coarse.tsv")], heights=HEIGHTS)
         assert abs(of_coarse["rms"] / rms - 10) < 2 and rms < abs(coarse - exact) < 4 * of_coarse["rms"]
 

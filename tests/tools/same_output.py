@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares two texts word by word: numbers to 1e-12 (the last digit of a logarithm depends on the
-processor), everything else to the letter. The line that ends a table must agree with the table that it
-ends, and depends on those digits, too. Usage: same_output.py ACTUAL EXPECTED"""
+processor), everything else exactly. The last line of a table must agree with its own table, since it
+depends on these digits, too. Usage: same_output.py ACTUAL EXPECTED"""
 import pathlib
 import re
 import sys

@@ -39,8 +39,8 @@ refused() {
 $bin/grseg-stress chute.h5 --quiet --overwrite -o sums.tsv --part 1/2
 expected=2 sentence='^grseg-stress: sums.part-2-of-2.tsv is missing; make it with this command and --part 2/2' refused
 cp sums.part-1-of-2.tsv sums.part-2-of-2.tsv
-expected=3 sentence="'# part: 1/2' where this has '# part: 2/2'" refused
-expected=3 sentence="'# history: grseg-stress chute.h5 .* where this has '# history: .*--layer 2dS" refused --layer 2dS
+expected=3 sentence="'# part: 1/2' instead of '# part: 2/2'" refused
+expected=3 sentence="'# history: grseg-stress chute.h5 .* instead of '# history: .*--layer 2dS" refused --layer 2dS
 [ ! -e sums.tsv ] || fail 'a refused output appeared'
 
 again() { PWD=$folder make --no-print-directory -j2 -C "$source/scripts" reanalysis BIN="$bin" WINDOW=2 BOOTSTRAP=0 RUNS=chute.h5 "$@"; }
@@ -51,4 +51,4 @@ again SHARDS=10 RUN="env --" >log
 for file in fit scan kinetic-fit chute.stress chute.kinetic chute.micro; do
   cmp "whole/$file.tsv" "reanalysis/$file.tsv" || fail "make with SHARDS=10: $file.tsv"
 done
-! again SHARDS=few >log 2>&1 && grep -q 'SHARDS should be a whole number' log || fail "$(cat log)"
+! again SHARDS=few >log 2>&1 && grep -q 'SHARDS must be a whole number' log || fail "$(cat log)"

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every tool that prints a table prints a short one on a terminal, which fits 100 columns, and the whole one into pipes
+"""Every tool that prints a table prints a short table on a terminal, which fits 100 columns, and the whole table into pipes
 and files; --digits sets the digits of both. Usage: tables_on_terminal_test.py SOURCE BIN"""
 import os
 import re
@@ -24,7 +24,7 @@ COMMANDS = {
 
 
 def numbers(table):
-    """The cells of the rows of a whole table; its last line must agree with it."""
+    """Cells of the rows of a whole table; the table's last line must agree with the table."""
     rows = [line for line in shared.unsealed(table).splitlines() if not line.startswith("#")][1:]
     return [row.split("\t") for row in rows]
 
@@ -65,7 +65,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for tool, words in COMMANDS.items():
             check(tool, words, folder)
-        # Where not all columns fit, those stand there that most readers look for.
+        # If not all columns fit, those are shown that most readers look for.
         sums = f"{folder}/sums.tsv"
         in_pipe([f"{programs}/grseg-micro", *COMMANDS["micro"], "--quiet", "-o", sums])
         derived, _ = on_terminal([f"{programs}/grseg-derive", sums, "--quiet"])

@@ -1,11 +1,11 @@
-"""What programs print on a terminal, and into a pipe."""
+"""Output of programs on a terminal and into a pipe."""
 import os
 import pty
 import subprocess
 
 
 def on_terminal(command, codes=(0,)):
-    """Standard output where that is a terminal, and standard error."""
+    """Standard output if it is a terminal, and standard error."""
     leader, follower = pty.openpty()
     process = subprocess.Popen(command, stdout=follower, stderr=subprocess.PIPE)
     os.close(follower)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads damaged copies of a file as the programs do, and says what came of each. scripts/fault-trials
-// tells it what to damage, a line per copy on standard input:
+// Reads damaged copies of a file as the programs do, and reports each result. scripts/fault-trials
+// writes the damages, a line per copy, to standard input:
 //   none | flip OFFSET BIT | cut LENGTH | zero OFFSET LENGTH
 // Usage: read_damaged run|checkpoint|table|archive FILE SCRATCH [words for grseg-import]
-// Each line of the answer is the line that was read, a tab, and for every way to read the file
+// Each line of the answer is the line that was read, a tab, and a word or words for every way to
+// read the file:
 //   same | other | refused CODE SENTENCE | thrown WORDS
-// separated by tabs; where opening it is refused already, only that; or "crash SIGNAL", "hang", "report" (of a sanitizer) for all of them.
+// They are separated by tabs. If opening the file is refused, only that is reported; "crash SIGNAL", "hang"
+// or "report" (of a sanitizer) stands for all ways.
 #include "formats/cli/table.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/frame.hpp"
@@ -31,10 +33,10 @@ namespace {
 using namespace grseg;
 namespace po = boost::program_options;
 
-constexpr unsigned patience = 10;  // s, more is a hang
+constexpr unsigned patience = 10;  // s; a longer time counts as a hang
 constexpr int sanitizer_exit = 99;
 
-/// Everything that was read, as bytes.
+/// All data that were read, as bytes.
 class Content {
  public:
   template <class T>
@@ -118,7 +120,7 @@ Way frames_with(TrajectoryReader::Fields fields, std::size_t stride)
   };
 }
 
-/// What every program reads first.
+/// Reads what every program reads first.
 void opened(const std::string& path, Content& content)
 {
   content.add(TrajectoryReader(path).parameters());
@@ -187,7 +189,7 @@ std::vector<Way> ways_to_read(const std::string& kind, const std::string& origin
   if (kind == "table") return {table};
   if (kind == "archive")
     return {[=](const auto& path, Content& content) { archive(words, original, path, content); }};
-  // What the programs read: whole (check, export), without forces, one of the two.
+  // Ways in which programs read a run: completely (check, export), without forces, one of the two.
   std::vector<Way> ways{opened, all_of_run};
   for (const TrajectoryReader::Fields fields : {TrajectoryReader::Fields{true, true, true},
                                                 {true, true, false},
@@ -197,7 +199,7 @@ std::vector<Way> ways_to_read(const std::string& kind, const std::string& origin
   return ways;
 }
 
-/// What comes of reading `path` in one way: its content goes to `bytes`, unless it is refused.
+/// Result of reading `path` in one way; its content is added to `bytes` if it is not refused.
 std::string outcome(const Way& way, const std::string& path, std::string& bytes)
 {
   try {
@@ -232,7 +234,7 @@ class Trials {
     bytes_.assign(std::istreambuf_iterator<char>(file), {});
   }
 
-  /// The answers to `damages` from number `next` on, as lines to `out`; in a process of its own.
+  /// Writes the answers to `damages` from number `next` on as lines to `out`; runs in a process of its own.
   void answer(const std::vector<std::string>& damages, std::size_t next, std::FILE* out)
   {
     for (std::size_t w = 0; w < ways_.size(); ++w) {
@@ -267,7 +269,7 @@ class Trials {
   }
 
   std::vector<Way> ways_;
-  std::vector<std::string> whole_;  // what each way reads of the undamaged file
+  std::vector<std::string> whole_;  // content that each way reads from the undamaged file
   std::string scratch_, bytes_;
 };
 
@@ -292,7 +294,7 @@ int main(int argc, char** argv)
   for (std::string line; std::getline(std::cin, line);) damages.push_back(line);
   Trials trials(ways_to_read(words[0], words[1], {words.begin() + 3, words.end()}), words[1],
                 words[2]);
-  // A process that ends at a damaged file is followed by one for the next.
+  // If a process ends because of a damaged file, another process continues with the next damage.
   for (std::size_t done = 0; done < damages.size();) {
     int ends[2];
     if (pipe(ends) != 0) return 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes a small run whose numbers are all different: what scripts/fault-trials and fuzz targets damage.
+// Writes a small run in which all numbers differ, which scripts/fault-trials and fuzz targets damage.
 // Usage: small_run FILE COMPRESSION-LEVEL
 #include "formats/trajectory/writer.hpp"
 
@@ -46,7 +46,7 @@ RunDescription description()
   return run;
 }
 
-/// Numbers between 0.5 and 1.5 that repeat in no frame.
+/// Numbers between 0.5 and 1.5 that differ between frames.
 double number(int frame, int entry)
 {
   return 1 + 0.5 * std::sin(1.7 * frame + 0.9 * entry);

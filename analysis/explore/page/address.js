@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fragment of the address holds the state of the page, so that a link shows the same to others:
+// The fragment of the address (after #) stores the state of the page, so that a link shows the same view:
 // "#report&rule=uniform:0.62&time=4.5&run=2&grain=2:17&draw=forces,layers".
 
 import {byId} from "./format.js";
 import {parseRule, ruleName} from "./partition.js";
 import {listen, set, state} from "./state.js";
 
-/** Checkboxes of the drawing: [word in the address, id, name in the state]. */
+/** Checkboxes that select what is drawn: [word in the address, id of the element, name in the state]. */
 export const boxes = [
   ["grains", "show-grains", "showGrains"],
   ["forces", "show-forces", "showForces"],
@@ -14,7 +14,7 @@ export const boxes = [
   ["layers", "show-layers", "showLayers"],
 ];
 
-/** The fragment of the present state. Runs count from 1, the last one is all together; a grain is RUN:ROW, the row of the file. */
+/** Fragment of the present state. Runs are numbered from 1, the last number means all runs together; a grain is RUN:ROW, with its row in the file. */
 function fragment(page) {
   const {tab, rule, time, run, player, grain} = state;
   const words = [tab, `rule=${ruleName(rule)}`, `time=${Number(time.toPrecision(6))}`];
@@ -24,7 +24,7 @@ function fragment(page) {
   return `#${words.join("&")}`;
 }
 
-/** Sets the state from the address; parts that the page does not have are skipped. */
+/** Sets the state from the address; rules, runs and grains that the page does not have are ignored. */
 export function restore(page) {
   const told = new URLSearchParams(window.location.hash.slice(1));
   const changes = {};
@@ -45,7 +45,7 @@ export function restore(page) {
   if (tab) page.showTab(tab);
 }
 
-/** Keeps the address up to date, 0.4 s after the last of several changes: browsers allow few changes in a second. */
+/** Updates the address 0.4 s after the last of several changes, because browsers allow few changes per second. */
 export function keepAddress(page) {
   let waiting = 0;
   listen(() => {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frame of a plot: an SVG that is as wide as its place, two scales, axes and their names.
+// Axes of a plot: an SVG as wide as the element around it, two scales, axes and their labels.
 
 import {axisBottom, axisLeft, select} from "./d3.js";
 import {minus} from "./format.js";
 
-let charts = 0; // so far, for names
+let charts = 0; // number of charts made so far, for ids
 
 export const margin = {top: 22, right: 14, bottom: 38, left: 46};
 
-/** Puts "σ^S/σ_{yy}" into a text, with what follows ^ and _ raised and lowered. */
+/** Writes a label such as "σ^S/σ_{yy}" into an SVG text; ^ starts a superscript, _ a subscript. */
 function setLabel(text, label) {
   text.selectAll("tspan").remove();
   let shift = 0;
@@ -20,11 +20,11 @@ function setLabel(text, label) {
   }
 }
 
-/** Puts a line of an SVG upright at x. */
+/** Places an SVG line vertically at x. */
 export const upright = (mark, x, from, to) => mark.attr("x1", x).attr("x2", x).attr("y1", from).attr("y2", to);
 
 export class Chart {
-  /** `scales`: {x, y} of d3; `labels`: {x, y}; `height` in pixels; `name`: read out by screen readers. */
+  /** `scales`: d3 scales {x, y}; `labels`: axis labels {x, y}; `height` in pixels; `name`: text for screen readers. */
   constructor(host, {scales, labels, height, name, ticks = {}, logarithmic = false}) {
     this.host = host;
     this.logarithmic = logarithmic;
@@ -33,7 +33,7 @@ export class Chart {
     this.height = height;
     this.svg = select(host).append("svg").attr("role", "img").attr("aria-label", name);
     this.grid = this.svg.append("g").attr("class", "grid");
-    // Marks under the axes are cut off at the ends of the axes.
+    // Marks in `under` are cut off at the ends of the axes.
     const clip = `clip-${++charts}`;
     this.clip = this.svg.append("clipPath").attr("id", clip).append("rect");
     this.under = this.svg.append("g").attr("clip-path", `url(#${clip})`);
@@ -54,7 +54,7 @@ export class Chart {
     return {left: margin.left, right: this.width - margin.right, top: margin.top, bottom: this.height - margin.bottom};
   }
 
-  /** Takes the width of its place, and draws axes and grid. */
+  /** Makes the chart as wide as the element around it, and draws axes and grid. */
   layout() {
     this.width = Math.max(220, Math.floor(this.host.clientWidth));
     this.svg.attr("width", this.width).attr("height", this.height).attr("viewBox", `0 0 ${this.width} ${this.height}`);

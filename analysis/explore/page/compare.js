@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Table of several runs: B by the present rule for each run, and for all together.
+// Table of several runs: B under the selected rule for each run, and for all runs together.
 
 import {byId, element, fixed, interval} from "./format.js";
 import {fitOf, intervalOf, zeroOf} from "./partition.js";
 import {set, state} from "./state.js";
 
 export class Compare {
-  /** `all`: [{name, fit, why}], the last one of all runs together. */
+  /** `all`: [{name, fit, why}] by run, the last entry for all runs together; `why`: reason if there is no fit. */
   constructor(all) {
     this.all = all;
     byId("compare").hidden = all.length < 2;
@@ -24,8 +24,8 @@ export class Compare {
     );
     const why = all[all.length - 1].why;
     byId("compare-note").textContent = why
-      ? `The runs are not taken together: ${why}`
-      : "Plots are of the run that is chosen; thin lines in B over p are the others.";
+      ? `The runs have no common B: ${why}`
+      : "The plots show the chosen run; thin lines in the plot of B over p are the other runs.";
   }
 
   update() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the data of the page: JSON, and one zlib stream of arrays in base64 for each run (binary_arrays.hpp).
+// Reads the data of the page: JSON, and for each run its arrays as one zlib stream in base64 (binary_arrays.hpp).
 
 const types = {
   u8: Uint8Array,
@@ -22,12 +22,12 @@ function fromBase64(text) {
 
 async function inflated(bytes) {
   if (typeof DecompressionStream === "undefined")
-    throw new Error("This browser cannot unpack the page; take one of 2023 or later.");
+    throw new Error("This browser cannot unpack the data of the page; use a browser of 2023 or later.");
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Decodes an array, whose lowest bytes come first, then the next ones, and so on. */
+/** Decodes an array: it is stored as the lowest bytes of all numbers, then the second bytes, and so on. */
 function joined(bytes, {type, offset, length}) {
   const values = new types[type](length);
   const size = values.BYTES_PER_ELEMENT;
@@ -37,7 +37,7 @@ function joined(bytes, {type, offset, length}) {
   return values;
 }
 
-/** The arrays of run `k`, {name: typed array}; `directory` lists them. */
+/** Arrays of run `k`, {name: typed array}; `directory` has type, offset and length of each. */
 export async function readArrays(k, directory) {
   const element = document.getElementById(`arrays-${k}`);
   const bytes = await inflated(fromBase64(element.textContent));

@@ -6,7 +6,7 @@ export const minus = (text) => text.replace(/-/g, "−");
 export function fixed(value, digits = 3) {
   return Number.isFinite(value) ? minus(value.toFixed(digits)) : "–";
 }
-/** A number with at most `digits` significant digits; very large and small ones with an exponent. */
+/** Text of a number with at most `digits` significant digits; very large and small numbers have an exponent. */
 export function short(value, digits = 4) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -14,7 +14,7 @@ export function short(value, digits = 4) {
   if (size >= 1e6 || size < 1e-3) return minus(value.toExponential(digits - 1).replace("e+", "e"));
   return minus(String(Number(value.toPrecision(digits))));
 }
-/** Texts of numbers beside each other, with up to three digits more if different numbers would read alike. */
+/** Texts of numbers that are shown side by side, with up to three more digits if different numbers would look equal. */
 export function apart(values, write, digits) {
   const written = [0, 1, 2, 3].map((more) => values.map((value) => write(value, digits + more)));
   const count = (all) => new Set(all).size;
@@ -33,7 +33,7 @@ export function rounded(text) {
     return digits > 4 ? short(Number(number)) : number;
   });
 }
-/** Name and unit of a column for people: "T_S_y [m²/s²]". */
+/** Readable name and unit of a table's column: "T_S_y [m²/s²]". */
 export function withUnit(column) {
   return column.replace("[", " [").replace("^2", "²").replace("^2", "²").replace("^3", "³");
 }
@@ -47,12 +47,12 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
-/** Key of a caption: [look, name] of lines (or of discs, with `piece` "key") as samples with their names. */
+/** Key of a caption: a sample and a name for each [look, name]. Samples are lines, or discs if `piece` is "key"; `look` is a CSS class. */
 export function keys(looks, piece = "stroke") {
   return looks.flatMap(([look, name]) => [element("span", {class: "named"}, element("i", {class: `${piece} ${look}`}), name), " "]);
 }
 
-/** A table: columns are [name, alignment], rows are lists of texts or elements. */
+/** A table: `columns` are [name, CSS class], `rows` are lists of texts or elements. */
 export function table(columns, rows, caption) {
   const cell = (name, content, side) => element(name, side ? {class: side} : {}, content);
   return element(
@@ -76,7 +76,7 @@ export function colour(name) {
   known[name] ??= getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   return known[name];
 }
-/** To be called when the colours of the style sheet have changed. */
+/** Clears the cache of colour(), after the colours of the style sheet have changed. */
 export function forgetColours() {
   known = {};
 }

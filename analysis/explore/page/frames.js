@@ -3,7 +3,7 @@
 
 import {extent} from "./d3.js";
 
-const none = 65535; // the code of a grain that is not shown
+const none = 65535; // code of the position of a grain that is not shown
 
 export class Frames {
   constructor(run) {
@@ -13,13 +13,13 @@ export class Frames {
     this.times = player.times;
     this.grains = player.grains;
     this.count = player.times.length;
-    this.base = 255; // species of base and other fixed grains
+    this.base = 255; // species number of fixed grains, e.g. of the base
     this.wallCodes = arrays.j.BYTES_PER_ELEMENT === 2 ? 65535 : 4294967295;
     this.meanForce = this.#meanForce();
     [this.low, this.high] = this.#extent();
   }
 
-  /** The number of the frame nearest to a time. */
+  /** Number of the frame nearest to a time (s). */
   at(time) {
     let best = 0;
     for (let k = 1; k < this.count; ++k)
@@ -40,15 +40,15 @@ export class Frames {
   y(frame, grain) {
     return this.#decoded("y", this.arrays.y[frame * this.grains + grain]);
   }
-  /** Radius of the disc that is drawn, m: of a grain, or of the cut through a sphere. */
+  /** Radius of the disc that is drawn, m: radius of the grain, or of the circle that the plane cuts out of a sphere. */
   radius(frame, grain) {
     const cut = this.arrays.cut_radius;
     return cut ? this.#decoded("cut", cut[frame * this.grains + grain]) : this.arrays.radius[grain];
   }
 
   /**
-   * Contacts of a frame: grains i and j (j < 0: wall -j-1), their places in m (for j the nearest periodic
-   * image, for a wall the contact point), and the force on i in N, along the branch and across it.
+   * Contacts of a frame: grains i and j (j < 0: wall -j-1), their positions in m (for j the nearest periodic
+   * image, for a wall the contact point), and the components of the force on i in N, along the branch and across it.
    */
   contacts(frame) {
     const {contact_offset, i, j, along, across} = this.arrays;
@@ -74,13 +74,13 @@ export class Frames {
     return all;
   }
 
-  /** Largest error of a force by its code, half a step, over the mean force. */
+  /** Largest rounding error of a force (half a step of its code), divided by the mean force. */
   get rounding() {
     const {along, across} = this.player.bounds;
     return Math.max(along.step, across.step) / 2 / this.meanForce;
   }
 
-  /** Walls known in a frame: [normal x, normal y, offset in m]. */
+  /** Walls that had a contact up to this frame: [normal x, normal y, offset in m]. */
   walls(frame) {
     const n = this.player.walls;
     const known = [];
@@ -101,7 +101,7 @@ export class Frames {
     return [x - away * nx, y - away * ny];
   }
 
-  /** Mean normal force, N, over all contacts that push and all frames. */
+  /** Mean normal force, N, over all repulsive contacts of all frames. */
   #meanForce() {
     const {along} = this.arrays, {from, step} = this.player.bounds.along;
     let sum = 0, n = 0;
@@ -115,7 +115,7 @@ export class Frames {
     return n ? sum / n : 1;
   }
 
-  /** Corners of the region that all frames fill: [[x, y], [x, y]] in m. */
+  /** Lower left and upper right corner of the region that grains reach in any frame: [[x, y], [x, y]] in m. */
   #extent() {
     const {bounds, length_x, periodic_x} = this.player;
     const margin = extent(this.arrays.radius)[1] ?? 0;

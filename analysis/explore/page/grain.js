@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panel of the chosen grain: its contacts, enlarged, and its part of its mixed contacts by each rule.
+// Panel of the chosen grain: its contacts, enlarged, and its part of the stress of its mixed contacts under each rule.
 
 import {byId, element, fixed, percent, short, table} from "./format.js";
 import {parseRule, ruleName} from "./partition.js";
@@ -7,8 +7,8 @@ import {shareOfContact} from "./player.js";
 import {set, state} from "./state.js";
 
 /**
- * The contacts of a grain in the present frame. For spheres: contacts with other grains that the plane
- * cuts, and the forces' parts in the plane.
+ * Contacts of a grain in the frame that is shown. For spheres: only contacts with grains that the plane cuts,
+ * with the components of forces in the plane.
  */
 export function contactsOf(player, grain) {
   const contacts = player.contacts();
@@ -19,7 +19,7 @@ export function contactsOf(player, grain) {
     const first = contacts.i[k] === grain;
     if (!first && contacts.j[k] !== grain) continue;
     const other = first ? contacts.j[k] : contacts.i[k];
-    const side = first ? 1 : -1; // of the branch, from the other grain to this one
+    const side = first ? 1 : -1; // sign of the branch, which points from the other grain to this one
     const bx = side * (contacts.xi[k] - contacts.xj[k]), by = side * (contacts.yi[k] - contacts.yj[k]);
     const length = Math.hypot(bx, by) || 1;
     const [ex, ey] = [bx / length, by / length];
@@ -36,7 +36,7 @@ export function contactsOf(player, grain) {
       angle: (Math.atan2(-by, -bx) * 180) / Math.PI,
       along: contacts.along[k],
       across: contacts.across[k],
-      stress: fy * by, // N m, force (x) branch, yy
+      stress: fy * by, // yy component of the dyadic product of force and branch, N m
       dx: -bx,
       dy: -by,
     });
@@ -44,7 +44,7 @@ export function contactsOf(player, grain) {
   return own;
 }
 
-/** The grain's part of the stress of its mixed contacts under a rule, N m; NaN for the rule drop. */
+/** Part of the stress of its mixed contacts that a grain gets under a rule, N m; NaN for the rule drop. */
 export function partOf(contacts, rule) {
   let part = 0;
   for (const contact of contacts.filter(({mixed}) => mixed)) {
@@ -159,19 +159,19 @@ export class GrainPanel {
       return [k === all.length - 1 ? `now, ${ruleName(rule)}` : ruleName(rule), short(part, 3), percent(part / whole)];
     });
     const words = !flat
-      ? "The plane shows only some of its contacts, so that its parts by rule are not known here."
+      ? "The plane cuts only some of its contacts, so that its part of the stress is not known here."
       : mixed.length
-      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species ${mixed.length > 1 ? "bear" : "bears"} Σ fy ℓy = ${short(whole, 3)} N m. By each rule it gets`
-      : "It has no contact with the other species: no rule gives or takes.";
+      ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species ${mixed.length > 1 ? "have" : "has"} the sum Σ fy ℓy = ${short(whole, 3)} N m. The grain’s part of this sum under each rule:`
+      : "It has no contact with the other species: its stress is the same under every rule.";
     this.contacts.replaceChildren(heading, rows.length ? element("div", {class: "scroll"}, table(heads, rows)) : "");
     this.rulesOfIt.replaceChildren(
       element("p", {}, words),
-      flat && mixed.length ? table([["rule"], ["it gets (N m)", "number"], ["of the whole", "number"]], parts) : "",
+      flat && mixed.length ? table([["rule"], ["its part (N m)", "number"], ["of the sum", "number"]], parts) : "",
       element(
         "p",
         {class: "note"},
-        `${flat ? "" : "Forces are their parts in the plane of the cut. "}In the page forces are rounded to ±${short(frames.rounding, 2)} ⟨fn⟩; ` +
-          `contact-point is shown as size, from which it differs by ${short(run.player.contact_point_from_size, 2)} at most.`,
+        `${flat ? "" : "Forces are components in the plane of the cut. "}This page rounds forces to ±${short(frames.rounding, 2)} ⟨fn⟩ (⟨fn⟩: mean normal force). ` +
+          `The rule contact-point is shown as size; the shares of the two rules differ by at most ${short(run.player.contact_point_from_size, 2)}.`,
       ),
     );
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keyboard shortcuts. A control keeps the keys that it uses itself.
+// Keyboard shortcuts. Keys that the focused control uses itself are left to the control.
 
 import {byId} from "./format.js";
 import {isShare, parseRule, shareOf} from "./partition.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the data of the page, makes its parts, and updates them when the reader chooses something.
+// Reads the data of the page, builds its elements, and updates them when the reader chooses something.
 
 import {boxes, keepAddress, restore} from "./address.js";
 import {Compare} from "./compare.js";
@@ -25,10 +25,10 @@ function nameThePage() {
   const names = runs.map((run) => run.name).join(", ");
   document.title = `${names} – grseg`;
   byId("title").textContent = names;
-  byId("made-by").textContent = `Made by ${content.program}; it loads nothing from anywhere.`;
+  byId("made-by").textContent = `Made by ${content.program}; it loads nothing from the network.`;
 }
 
-/** Reads the arrays of all runs and, if there are several, of all together; fits get theirs, too. */
+/** Reads the arrays of each run and, if there are several runs, of all together; each fit gets the same arrays. */
 async function readAll() {
   const arrays = await Promise.all(all.map((one, k) => readArrays(k, one.arrays)));
   all.forEach((one, k) => {
@@ -84,12 +84,12 @@ function describeColours() {
   const inOrder = [...names.values()].sort(([, a], [, b]) => (a === "base") - (b === "base"));
   byId("legend").replaceChildren(
     ...keys(inOrder.map(([name, look]) => [look, name]), "key"),
-    "– lines are contacts, as wide as their force is strong; a line counts to the species whose colour it has.",
-    runs.some((run) => run.dimension === 3) ? " Spheres are cut by the plane half-way across." : "",
+    "– each line is a contact; its width shows the normal force, its colour the species to whose stress it counts.",
+    runs.some((run) => run.dimension === 3) ? " A plane in the middle of the cell cuts the spheres." : "",
   );
 }
 
-/** Unit and name of heights in plots: d_S of the runs, or metres if it differs; y is a radius if bins are annuli. */
+/** Unit (m) and label of heights in plots: d_S, or metres if the runs differ in d_S; r instead of y if bins are annuli. */
 function heightOf(some) {
   const sizes = some.map((run) => run.small_diameter);
   const same = Math.max(...sizes) < 1.001 * Math.min(...sizes);
@@ -97,7 +97,7 @@ function heightOf(some) {
   return same ? {unit: sizes[0], name: `${letter}/d_S`} : {unit: 1, name: `${letter} (m)`};
 }
 
-/** The tab "explore": players of all runs, plots and controls. */
+/** Content of the tab "explore": players of all runs, plots and controls. */
 class Page {
   constructor() {
     this.fits = all.map((one) => one.fit ?? null);
@@ -126,7 +126,7 @@ class Page {
   get run() {
     return runs[state.run] ?? null;
   }
-  /** State after a click on run k: plots stay with the run before if this one has no fit and another has. */
+  /** Change of the state after a click on run k. The plots do not switch to run k if it has no fit and another run has one. */
   chosen(k) {
     return this.fits[k] || !this.fits.some(Boolean) ? {run: k} : {};
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The algebra of grseg-fit: stresses under a rule, and B (analysis/stress/partial_stress.cpp,
+// Algebra of grseg-fit: stresses under a partition rule, and B (analysis/stress/partial_stress.cpp,
 // analysis/fit/estimators.cpp). Stress under uniform:p is linear in p:
 //
 //   sigma^L(p) = (1 - p) sigma^L(0) + p sigma^L(1),  for two species sigma^L(0) = A_LL/V, sigma^L(1) = (A_LL + M)/V,
 //
-// and sigma^S likewise. The rules size and contact-point have their own sums.
+// and sigma^S likewise; A_LL sums contacts between large grains, M mixed contacts, V is the volume. The rules
+// size and contact-point have sums of their own.
 
-/** Reads a rule, "size" or "uniform:0.65": {kind, value}; p is limited to 0 to 1, Q to 0 to 4. */
+/** Reads a rule such as "size" or "uniform:0.65" as {kind, value}; p is limited to [0, 1], Q to [0, 4]. */
 export function parseRule(text) {
   const [kind, number] = text.split(":");
   return kind === "power" || kind === "uniform" ? numberedRule(kind, Number(number)) : {kind, value: NaN};
@@ -18,18 +19,18 @@ export function ruleName({kind, value}) {
   return Number.isNaN(value) || value === undefined ? kind : `${kind}:${Number(value.toPrecision(12))}`;
 }
 
-/** The rule for grseg-fit that gives the B of the page: without sums by power:Q, the share of nominal radii. */
+/** Rule with which grseg-fit gives the B of the page. It differs from `rule` for power:Q if the page has no sums for it. */
 export function commandRule(fit, rule) {
   const nominal = rule.kind === "power" && !hasPowers(fit);
   return nominal ? {kind: "uniform", value: powerShare(fit.size_ratio, rule.value)} : rule;
 }
 
-/** Share of the larger of two grains by power:Q, `ratio` being r_L/r_S. */
+/** Share of the larger of two grains under power:Q; `ratio` is r_L/r_S. */
 export function powerShare(ratio, Q) {
   return 1 / (1 + ratio ** -Q);
 }
 
-/** Weight of each node in barycentric interpolation at Q; nodes are Chebyshev's points of the second kind. */
+/** Weight of each node in barycentric interpolation at Q; the nodes are Chebyshev points of the second kind. */
 function weightsAt(nodes, Q) {
   const weights = nodes.map((node, k) => {
     const end = k === 0 || k === nodes.length - 1 ? 0.5 : 1;
@@ -41,7 +42,7 @@ function weightsAt(nodes, Q) {
   return weights.map((weight) => weight / sum);
 }
 
-/** True if the page has sums by power:Q with the grains' own radii; otherwise nominal radii are taken. */
+/** True if the page has sums under power:Q with the radius of each grain; otherwise the page uses nominal radii. */
 export function hasPowers(fit) {
   return fit.power_nodes.length > 0;
 }
@@ -61,7 +62,7 @@ function ofPower(fit, get, Q) {
   return {small, large, total};
 }
 
-/** Stresses under a rule, {small, large, total}: at the points of the fit, or, with `prefix` "layer_", means by layer. */
+/** Stresses under a rule, {small, large, total}, each by layer and window; with `prefix` "layer_", means over time by layer. */
 export function stressOf(fit, rule, prefix = "") {
   const get = (name) => fit.arrays[prefix + name];
   const uniform = (p) => {
@@ -86,7 +87,7 @@ export function stressOf(fit, rule, prefix = "") {
   }
 }
 
-/** {B, points, weight} as in grseg-fit; `which`: numbers of the points to take, null for all. */
+/** {B, points, weight} as in grseg-fit. A point is one layer in one window; `which`: numbers of the points used, null for all. */
 export function sumsOf(fit, stress, which = null) {
   const {phi_large, frames} = fit.arrays;
   const {large: larges, total: totals} = stress;
@@ -103,7 +104,7 @@ export function sumsOf(fit, stress, which = null) {
   return {B: excess / weight, points, weight};
 }
 
-/** B of contacts that ignore grain size, at the share p, for two species of nominal radii (partition_rule.cpp). */
+/** B that contacts would have at the share p if they ignored grain size; two species of nominal radii (partition_rule.cpp). */
 export function neutralSums(fit, p) {
   if (!fit.two) return NaN;
   const {phi_large, frames} = fit.arrays;
@@ -117,15 +118,15 @@ export function neutralSums(fit, p) {
   return above / below;
 }
 
-/** {B, points, weight} of a rule; B is NaN for drop, whose stresses do not add up to the whole. */
+/** {B, points, weight} under a rule; B is NaN for drop, under which the two stresses do not add up to the total. */
 export function fitOf(fit, rule) {
   const all = sumsOf(fit, stressOf(fit, rule));
   return rule.kind === "drop" ? {...all, B: NaN} : all;
 }
 
 /**
- * The share p of all mixed contacts that gives the B of the rule (rule_fit.hpp). With more than two species
- * the sums also hold contacts with the others: NaN, unless the rule itself names p.
+ * Share p for which uniform:p gives the B of the rule (rule_fit.hpp). NaN if there are more than two species,
+ * because the sums then include contacts with other species, unless the rule itself names p.
  */
 export function shareOf(fit, rule) {
   if (rule.kind === "uniform") return rule.value;
@@ -137,7 +138,7 @@ export function shareOf(fit, rule) {
   return (fitOf(fit, rule).B - at(0)) / (at(1) - at(0));
 }
 
-/** The share at which B is 0, with its interval, from grseg-fit: [p*, low, high]; NaN with more than two species. */
+/** Share p* at which B is 0, with its interval, from grseg-fit: [p*, low, high]; NaN if there are more than two species. */
 export function zeroOf(fit) {
   return (fit.scan.p_zero ?? [null, null, null]).map((value) => value ?? NaN);
 }
@@ -146,7 +147,7 @@ export function isShare(p) {
   return p >= 0 && p <= 1;
 }
 
-/** Ends of the band at the share p, [low, high], interpolated between the shares of grseg-fit. */
+/** Interval of B at the share p, [low, high], interpolated between the shares at which grseg-fit computed it. */
 export function bandAt(fit, p) {
   const {p: grid, B: rows} = fit.scan;
   if (!(p >= grid[0] && p <= grid[grid.length - 1])) return [NaN, NaN];
@@ -159,13 +160,13 @@ export function bandAt(fit, p) {
       : (1 - t) * rows[k][side] + t * rows[k + 1][side]);
 }
 
-/** The result of grseg-fit for a rule and all runs of the fit, if it is in the page. */
+/** Result of grseg-fit for a rule, over all runs of the fit; undefined if the page does not contain it. */
 export function fittedRule(fit, rule) {
   const name = ruleName(rule);
   return fit.rules.filter((row) => row.name === name).pop();
 }
 
-/** Interval of B of a rule, {interval: [low, high], of}: its own, with `of` "", or taken from the band at its share. */
+/** Interval of B under a rule, {interval: [low, high], of}: from grseg-fit, with `of` "", or read from the band at the rule's share. */
 export function intervalOf(fit, rule) {
   const own = fittedRule(fit, rule);
   if (own) return {interval: own.B.slice(1).map((x) => x ?? NaN), of: ""};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bar of the pressure and its bearers: pairs of large grains, the two parts of mixed contacts, pairs of small
-// grains.
+// Bar that divides the pressure: contacts between large grains, the two parts of mixed contacts, contacts
+// between small grains.
 
 import {apart, byId, element, percent} from "./format.js";
 import {state} from "./state.js";
 
-/** Each part's share of the pressure of its layer, as a mean over layers and frames; B is made of these. */
+/** Share of each part in the pressure of a layer, as a mean over layers and frames; B is computed from these shares. */
 function meanParts(fit, stress) {
   const {none_large, all_large, all_small, phi_large, frames} = fit.arrays;
   const mean = {small: 0, large: 0, mixed: 0, given: 0, phi: 0};
@@ -41,7 +41,7 @@ export class Parts {
     const parts = [
       ["large–large", large],
       ["mixed, to the large grain", dropped ? 0 : given],
-      ["mixed, nobody’s", dropped ? mixed : 0],
+      ["mixed, dropped", dropped ? mixed : 0],
       ["mixed, to the small grain", dropped ? 0 : mixed - given],
       ["small–small", small],
     ];
@@ -56,7 +56,7 @@ export class Parts {
     this.words.replaceChildren(
       "Large grains carry ",
       element("b", {class: "large"}, carried),
-      ` of the pressure, as a mean over layers; the upright line is their part of the grains, ${present}. Hatched: mixed contacts.`,
+      ` of the pressure (mean over layers). The vertical line marks their share of the grains, ${present}. Hatched: mixed contacts.`,
     );
   }
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws a frame on a canvas: grains, and every contact as a line whose width is its force. Each species' part
-// of the line has the colour of that species.
+// Draws a frame on a canvas: grains, and every contact as a line as wide as its force is strong. The part of
+// the line that belongs to a species has the colour of the species.
 
 import {colour, element} from "./format.js";
 import {powerShare} from "./partition.js";
 import {state} from "./state.js";
 
-const widths = 10; // classes of line width
-const thickest = 1.1; // of a line, over the radius of a small grain
+const widths = 10; // number of classes of line width
+const thickest = 1.1; // width of the thickest line, in radii of a small grain
 
-/** Share of the larger grain in a mixed contact of these radii; NaN for the rule drop. */
+/** Share of the larger grain in a mixed contact, from the two radii; NaN for the rule drop. */
 export function shareOfContact(rule, large, small) {
   switch (rule.kind) {
     case "uniform":
@@ -20,7 +20,7 @@ export function shareOfContact(rule, large, small) {
       return powerShare(large / small, rule.value);
     case "drop":
       return NaN;
-    default: // size, and contact-point, which agrees with it for grains that just touch
+    default: // size; and contact-point, which equals size for grains that just touch
       return large / (large + small);
   }
 }
@@ -31,7 +31,7 @@ export class Player {
     this.frames = frames;
     this.canvas = element("canvas", {tabindex: "0", role: "img"});
     this.context = this.canvas.getContext("2d");
-    this.still = document.createElement("canvas"); // of everything that the rule does not change
+    this.still = document.createElement("canvas"); // image of everything that does not depend on the rule
     this.pair = run.fit ? run.fit.numbers_of_pair : [0, 1];
     this.base = run.fit ? run.fit.settings.base : "contact-point";
     this.hasLayers = run.fit && run.bins === "layers"; // annuli are not drawn
@@ -48,7 +48,7 @@ export class Player {
     return this.cached.contacts;
   }
 
-  /** Sets the size: `width`, and the height that follows for the flow, at most `tallest`; px. */
+  /** Sets the canvas to `width` and to the height that the flow then has, at most `tallest`; px. */
   resize(width, tallest) {
     const [[x0, y0], [x1, y1]] = [this.frames.low, this.frames.high];
     this.scale = Math.min(width / (x1 - x0), tallest / (y1 - y0));
@@ -95,7 +95,7 @@ export class Player {
     c.clip();
   }
 
-  /** Draws grains, walls and layers, unless nothing has changed since they were drawn last. */
+  /** Draws grains, walls and layers again if they have changed. */
   #drawStill() {
     const {showGrains, showForces, showLayers, layer} = state;
     const wanted = [this.frame, showGrains, showForces, showLayers, layer, this.colours.ink].join(" ");
@@ -117,7 +117,7 @@ export class Player {
     return at === 0 ? this.colours.small : at === 1 ? this.colours.large : this.colours.other;
   }
 
-  /** Calls at(x, y, r) in pixels for a grain and, at the ends of a periodic cell, its image. */
+  /** Calls at(x, y, r) (pixels) for a grain and, if it crosses an end of a periodic cell, also for its image. */
   #images(grain, at) {
     const {frames, frame} = this;
     const x = frames.x(frame, grain), r = frames.radius(frame, grain), y = this.py(frames.y(frame, grain));
@@ -136,7 +136,7 @@ export class Player {
       c.globalAlpha = one === frames.base ? 0.8 : state.showForces ? 0.24 : 0.85;
       for (let g = 0; g < frames.grains; ++g) {
         if (species[g] !== one || !frames.isShown(frame, g)) continue;
-        // One path for each disc: a path of thousands of discs takes a browser longer to fill.
+        // One path per disc: browsers take longer to fill one path of thousands of discs.
         this.#images(g, (x, y, r) => {
           c.beginPath();
           c.arc(x, y, Math.max(r - 0.25, 0.3), 0, 2 * Math.PI);
@@ -182,7 +182,7 @@ export class Player {
     c.stroke();
   }
 
-  /** Class of line width of a contact; -1: too thin to be seen. */
+  /** Class of line width for a normal force `along`, N; -1 if the line would be too thin to see. */
   widthClass(along) {
     const width = Math.abs(along) / (4 * this.frames.meanForce);
     return width < 0.01 ? -1 : Math.min(widths - 1, Math.floor(width * widths));
@@ -192,7 +192,7 @@ export class Player {
     return Math.max(0.5, (((k + 0.6) / widths) * thickest * d * this.scale) / 2);
   }
 
-  /** Place at which the line of contact k changes colour, from i (0) to j (1), and the species at both ends. */
+  /** Position `at` at which the line of contact k changes colour, from 0 (grain i) to 1 (grain j), and the species of both grains. */
   cut(contacts, k) {
     const {species, radius} = this.frames.arrays;
     const i = contacts.i[k], j = contacts.j[k];
@@ -204,7 +204,7 @@ export class Player {
     return {si, sj, at: iLarger ? share : 1 - share, mixed: true};
   }
 
-  /** The grain's part of a contact with the base; the line of a wall ends at the contact point. */
+  /** Part of a contact with the base that the grain gets. A line to a wall ends at the contact point. */
   #partAtBase(i, j) {
     const {radius} = this.frames.arrays;
     if (this.base === "none") return 0;
@@ -216,7 +216,7 @@ export class Player {
     const {context: c} = this;
     const contacts = this.contacts();
     const {length_x: length, periodic_x: periodic} = this.frames.player;
-    const paths = new Map(); // colour -> path of each class
+    const paths = new Map(); // colour -> one path for each class of line width
     const add = (ink, k, x0, y0, x1, y1) => {
       if (!paths.has(ink)) paths.set(ink, Array.from({length: widths}, () => new Path2D()));
       const path = paths.get(ink)[k];
@@ -265,7 +265,7 @@ export class Player {
     });
   }
 
-  /** Draws an arrow in the corner. */
+  /** Draws the direction of gravity as an arrow in the corner. */
   #drawGravity() {
     const {context: c} = this;
     const [gx, gy] = this.frames.player.gravity[this.frame];
@@ -294,7 +294,7 @@ export class Player {
     const {frames, frame} = this;
     const bounds = this.canvas.getBoundingClientRect();
     const at = {x: event.clientX - bounds.left, y: event.clientY - bounds.top};
-    let best = -1, nearest = 4; // pixels beyond its rim that still count
+    let best = -1, nearest = 4; // largest distance of the pointer from the rim of a grain, pixels
     for (let g = 0; g < frames.grains; ++g) {
       if (!frames.isShown(frame, g)) continue;
       this.#images(g, (x, y, r) => {

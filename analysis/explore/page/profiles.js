@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Profiles over height by the present rule: pressures of both species, and B of each layer.
+// Profiles over height under the selected rule: pressures of both species, and B of each layer.
 
 import {Chart, upright} from "./chart.js";
 import {extent, group, line, scaleLinear} from "./d3.js";
@@ -9,7 +9,7 @@ import {set, state} from "./state.js";
 
 const looks = ["total", "small", "large"];
 
-/** Makes the layer under the pointer the chosen one. */
+/** Sets state.layer to the layer under the pointer. */
 function follow(chart, layers) {
   const svg = chart.svg.node();
   svg.addEventListener("pointermove", (event) => {
@@ -22,7 +22,7 @@ function follow(chart, layers) {
 }
 
 export class Profiles {
-  /** `height()`: {unit: of heights in m, name: of the axis}; `namesOfPair()`: names of the two species of the fit. */
+  /** `height()`: {unit of heights in m, name of the axis}; `namesOfPair()`: names of the two species of the fit. */
   constructor(fitOfRun, height, unitOfStress, namesOfPair) {
     this.namesOfPair = namesOfPair;
     this.fitOfRun = fitOfRun;
@@ -55,7 +55,7 @@ export class Profiles {
     const {layer_bottom, layer_top, bottom, frames, phi_large} = fit.arrays;
     const {unit, name} = this.heightOfRun();
     this.layers = Array.from(layer_bottom, (y, k) => [y / unit, layer_top[k] / unit, [y, layer_top[k]]]);
-    // A profile joins layers of one thickness: layers of runs with other grains lie between them.
+    // A line joins layers of equal thickness: runs with other grain sizes have other layers, which lie between.
     this.profiles = group(Array.from(this.layers.keys()), (k) => (layer_top[k] - layer_bottom[k]).toPrecision(6));
     const [, top] = extent(this.layers, ([, y]) => y);
     const {large, total} = stressOf(fit, {kind: "uniform", value: 1}, "layer_");
@@ -65,7 +65,7 @@ export class Profiles {
     this.strength.setLabels({x: "B of the layer", y: name});
     this.pressure.layout();
 
-    // Layers of the fit, with their weight in it.
+    // Layers used in the fit, with their weights.
     const pointsAt = group(Array.from(bottom.keys()), (k) => bottom[k]);
     this.fitted = Array.from(pointsAt, ([y, own]) => {
       const weight = own.reduce((sum, k) => sum + frames[k] * phi_large[k] * (1 - phi_large[k]), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tab "report": settings, accuracy and results of the runs; made to be printed.
+// Content of the tab "report": settings, accuracy and results of the runs; suited for printing.
 
 import {Chart, upright} from "./chart.js";
 import {area, extent, line, scaleLinear} from "./d3.js";
@@ -9,8 +9,9 @@ import {isShare, stressOf, zeroOf} from "./partition.js";
 const charts = [];
 
 /**
- * A figure with a chart, which is drawn whenever its width is known: `domains(x, y)` sets the domains of the scales, or
- * returns false if there is nothing to draw; `paths(x, y, chart)` are [look, outline]. `lines`: [look, name] of the caption.
+ * A figure with a chart, which layoutReport() draws as soon as its width is known. `domains(x, y)` sets the domains of the
+ * scales, or returns false if there is nothing to draw. `paths(x, y, chart)` returns pairs [CSS class, outline]. `lines`:
+ * pairs [CSS class, name] for the key in the caption.
  */
 function figure(caption, labels, domains, paths, lines = []) {
   const host = element("div", {class: "plot"});
@@ -26,7 +27,7 @@ function figure(caption, labels, domains, paths, lines = []) {
   return made;
 }
 
-/** Figure of B over the share p with its band. */
+/** Figure of B over the share p, with the band of its intervals. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
   const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
@@ -43,9 +44,9 @@ function shareFigure(fit) {
   });
 }
 
-/** Figure of psi_L over phi_L with a point per layer and window; all are one path, since there may be thousands. */
+/** Figure of psi_L over phi_L with one point per layer and window. All points are one path, since there may be thousands. */
 function excessFigure(fit) {
-  const caption = "Large grains’ share of the pressure, by size, over their share of the grains: a point for each layer and window";
+  const caption = "Large grains’ share of the pressure, under the rule size, over their share of the grains; one point per layer and window";
   const {small, large} = stressOf(fit, {kind: "size", value: NaN});
   const points = Array.from(fit.arrays.phi_large, (phi, k) => [phi, large[k] / (small[k] + large[k])]).filter(([, psi]) => Number.isFinite(psi));
   const [least, most] = extent(points, ([, psi]) => psi);
@@ -56,7 +57,7 @@ function excessFigure(fit) {
   ], [["neutral", "equal shares"]]);
 }
 
-/** Figure of columns of a table by layer, over height. `lines`: [[column, look, name], ...] */
+/** Figure of columns of a table by layer, over height. `lines`: [[column, CSS class, name in the caption], ...] */
 function profileFigure(layers, name, lines, caption, label, smallDiameter) {
   const {columns, rows} = layers.tables.find((one) => one.name === name) ?? {columns: [], rows: []};
   const places = lines.map(([column, look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), look]);
@@ -102,7 +103,7 @@ function saveButton(name, {columns, rows}) {
   return button;
 }
 
-/** A table by layer, with the columns to read first or, by a checkbox, all. */
+/** A table by layer. It shows the most important columns, and all columns if its checkbox is set. */
 function layerTable(one, smallDiameter) {
   const host = element("div", {class: "scroll"});
   const put = (all) => {
@@ -123,7 +124,7 @@ function layerTable(one, smallDiameter) {
     {class: "by-layer"},
     element("h4", {}, one.note),
     host,
-    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` means of the rows of ${one.tool}, window by window`),
+    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` means over windows of the rows of ${one.tool}`),
   );
 }
 
@@ -154,14 +155,14 @@ function fitSection(fit, heading) {
     {},
     element("h3", {}, heading),
     element("div", {class: "scroll"}, table(columns, rows)),
-    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: with this share B is 0. ` : "", `${several ? "The intervals of all flows are" : "Intervals of 95 % are"} over ${fit.over}: ${fit.over_words}.`),
-    undecided.length ? element("p", {}, `Undecided by ${undecided.join(", ")}: the interval of B holds 0. A longer run, or runs of other seeds given beside it, make the interval narrower.`) : null,
+    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: at this share B is 0. ` : "", `${several ? "The intervals of all flows are" : "95 % intervals are"} over ${fit.over}: ${fit.over_words}.`),
+    undecided.length ? element("p", {}, `The sign of B is undecided under ${undecided.join(", ")}: the interval includes 0. A longer run, or further runs with other seeds, make the interval narrower.`) : null,
     doubts.length ? element("ul", {class: "doubt"}, ...doubts.map((doubt) => element("li", {}, doubt))) : null,
     element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
   );
 }
 
-/** Section with the heights of both species' centres over time, and the numbers of grseg-segregation. */
+/** Section with the heights of the centres of mass of both species over time, and the numbers of grseg-segregation. */
 function segregationSection(run) {
   const {segregation} = run;
   if (!segregation) return null;
@@ -178,7 +179,7 @@ function segregationSection(run) {
   const paths = (x, y) => [[small, "small"], [large, "large"]].map(([at, look]) =>
     [`profile ${look}`, line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows)]);
   const lines = [["small", "small grains"], ["large", "large grains"]];
-  const drawn = figure("Heights of the centres of mass, means of windows", {x: "t (s)", y: "y/d_S"}, domains, paths, lines);
+  const drawn = figure("Heights of the centres of mass, mean of each window", {x: "t (s)", y: "y/d_S"}, domains, paths, lines);
   const cells = numbers.filter(([, value]) => value !== null).map(([name, value, low, high]) => [
     withUnit(name),
     short(value),
@@ -190,13 +191,13 @@ function segregationSection(run) {
     element("h3", {}, "Segregation"),
     element("div", {class: "figures"}, drawn, element("div", {class: "scroll"}, table([["quantity"], ["value", "number"], ["95 %", "number"]], cells))),
     ...remarks.map((text) => element("p", {class: "note"}, rounded(`${text}.`))),
-    element("p", {class: "note screen"}, saveButton("segregation", segregation), " as grseg-segregation makes it of the bed, window by window"),
+    element("p", {class: "note screen"}, saveButton("segregation", segregation), " the table of grseg-segregation for the whole bed, one row per window"),
   );
 }
 
 const verdicts = {passed: "✓ passed", failed: "✗ failed", undecided: "? undecided", skipped: "– skipped"};
 
-/** Unit of a check's numbers; most are ratios, "–". */
+/** Unit of the numbers of a check; most are ratios, "–". */
 function unitOfCheck(quantity) {
   if (/^(overlap|open_gap)/.test(quantity)) return "dS";
   if (quantity.startsWith("approach")) return "dS per step";
@@ -225,7 +226,7 @@ function checkSection(run) {
     {},
     element("h3", {}, "Checks"),
     element("p", failures ? {class: "failed"} : {}, `${run.checks.command}. ${words}`, ""),
-    undecided ? element("p", {}, `${undecided[0].toUpperCase()}${undecided.slice(1)}: chance falls with the root of the time. Continue the run, or take more of the archive.`) : null,
+    undecided ? element("p", {}, `${undecided[0].toUpperCase()}${undecided.slice(1)}: the effect of chance decreases with the square root of the duration. Continue the run, or import more of the archive.`) : null,
     element("details", failures ? {open: ""} : {}, element("summary", {}, `All ${lines.length} lines`), element("div", {class: "scroll"}, table([["quantity"], ["y/dS"], ["measured", "number"], ["tolerance", "number"], ["unit"], ["verdict"], ["remark"]], rows))),
   );
 }
@@ -234,7 +235,7 @@ function pairs(entries) {
   return element("dl", {class: "facts"}, ...entries.flatMap(([key, value]) => [element("dt", {}, key), element("dd", {}, value)]));
 }
 
-/** Unit of an observable for people: "m s-1" becomes "m/s"; "–" for ratios and numbers. */
+/** Readable unit of an observable: "m s-1" becomes "m/s"; "–" for ratios and counts. */
 function unitOf(text) {
   return text.replace(/^1?$/, "–").replace(/ (\w+)-1$/, "/$1");
 }
@@ -251,7 +252,7 @@ const dimensions = {
   steps: /^horizon$/,
 };
 
-/** Parameters of the file with the units of formats/README.md. */
+/** Parameters of the file with the units that formats/README.md defines. */
 function parameters(run, all) {
   const perVolume = run.dimension === 3 ? "kg/m³" : "kg/m²";
   return all.map(([name, value]) => {
@@ -279,13 +280,13 @@ function settingsSection(run) {
     "section",
     {},
     element("h3", {}, "Settings"),
-    element("p", {class: "note"}, "In units of the SI, angles in degrees."),
+    element("p", {class: "note"}, "SI units; angles in degrees."),
     run.scene ? element("pre", {class: "scene"}, run.scene) : null,
     element("details", run.scene ? {} : {open: ""}, element("summary", {}, `All ${run.parameters.length} parameters of the file`), pairs(parameters(run, run.parameters))),
   );
 }
 
-const unsettled = ". To decide it, compare with the input of the program that wrote the archive, or import moments that are closer together, with forces on grains.";
+const unsettled = ". To decide it, compare with the input of the program that wrote the archive, or import frames that are closer together, with forces on grains.";
 
 function runSection(run) {
   const {layers} = run;
@@ -296,7 +297,7 @@ function runSection(run) {
     ["Frames", `${run.frames} from ${short(run.begin)} to ${short(run.end)} s, with ${run.contacts} contacts`],
     ["Species", run.species.map(({name, diameter}) => `${name}, diameter ${short(diameter)} m`).join("; ")],
     ["Program", run.program],
-    ["Sums", run.sums ? `of the table ${run.sums}` : "made for this page as grseg-stress makes them"],
+    ["Sums", run.sums ? `from the table ${run.sums}` : "made for this page, as grseg-stress makes them"],
   ];
   return element(
     "article",
@@ -309,7 +310,7 @@ function runSection(run) {
     accuracySection(run),
     element("h3", {}, "By layer"),
     element("p", {class: "note"}, `Means over ${layers.windows} window${layers.windows > 1 ? "s" : ""} from ${short(layers.begin)} to ${short(layers.end)} s, weighted by frames. ` +
-      (run.sums ? "Layers and windows are those of the command above, B is of the table’s. " : "") + layers.missing.map((text) => `${text}. `).join("")),
+      (run.sums ? "Layers and windows here are those of the command above; B uses those of the table. " : "") + layers.missing.map((text) => `${text}. `).join("")),
     ...layers.tables.map((one) => layerTable(one, run.small_diameter)),
     segregationSection(run),
     settingsSection(run),
@@ -317,20 +318,20 @@ function runSection(run) {
   );
 }
 
-/** Fills the tab. `together`: {fit} of all runs, if there are several. */
+/** Fills the tab. `together`: {fit} over all runs, if there are several. */
 export function writeReport(content, together) {
   const host = byId("report");
   const print = element("button", {class: "screen"}, "Print");
   print.addEventListener("click", () => window.print());
   host.replaceChildren(
-    element("p", {class: "lead"}, `${content.runs.length === 1 ? "One run" : `${content.runs.length} runs`}, as ${content.program} found ${content.runs.length === 1 ? "it" : "them"}. `, print),
+    element("p", {class: "lead"}, `${content.runs.length === 1 ? "One run" : `${content.runs.length} runs`}, analysed by ${content.program}. `, print),
     element("p", {class: "command"}, element("code", {}, content.command)),
     together?.fit ? element("article", {}, element("h2", {}, "All runs together"), fitSection(together.fit, "B of the contact stress")) : "",
     ...content.runs.map(runSection),
   );
 }
 
-/** Unfolds all details for printing. */
+/** Opens all <details> while the page is printed. */
 export function listenToPrinting() {
   let folded = [];
   window.addEventListener("beforeprint", () => {
@@ -343,7 +344,7 @@ export function listenToPrinting() {
   });
 }
 
-/** Draws all charts; to be called when widths are known or have changed. */
+/** Draws all charts; called when their widths become known or change. */
 export function layoutReport() {
   for (const draw of charts) draw();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plot of sigma^S/sigma^L over phi_S/phi_L, with a point per layer and window. There may be thousands of
-// points, so that they are on a canvas under the axes.
+// Plot of sigma^S/sigma^L over phi_S/phi_L, with one point per layer and window. A canvas under the axes shows
+// the points, since there may be thousands.
 
 import {Chart} from "./chart.js";
 import {extent, line, scaleLog} from "./d3.js";
@@ -11,7 +11,7 @@ import {state} from "./state.js";
 const tenths = (scale) => [4, (value) => (scale.domain()[1] / scale.domain()[0] > 300 && Math.log10(value) % 1 ? "" : String(Number(value.toPrecision(3))))];
 
 export class Scatter {
-  /** `windowTimes()`: [[begin, end], ...] of the sums. */
+  /** `windowTimes()`: [[begin, end], ...] of the windows of the sums, s. */
   constructor(fitOfRun, windowTimes) {
     this.fitOfRun = fitOfRun;
     this.windowTimes = windowTimes;
@@ -33,7 +33,7 @@ export class Scatter {
     const fit = this.fitOfRun();
     const {phi_large} = fit.arrays;
     this.ratio = phi_large.map((phi) => (1 - phi) / phi);
-    // The axes hold the points of all shares from 0.4 to 0.8.
+    // The axes include the points for all shares p from 0.4 to 0.8.
     let low = Infinity, high = 0;
     for (const p of [0.4, 0.8]) {
       const {small, large} = stressOf(fit, {kind: "uniform", value: p});
@@ -59,7 +59,7 @@ export class Scatter {
     this.canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  /** Points of the curve on which B is the same everywhere. */
+  /** Points of the curve on which B is everywhere equal to the fitted B. */
   #curve(found) {
     const {x} = this.chart.scales;
     const [from, to] = x.domain();
@@ -108,14 +108,14 @@ export class Scatter {
     const inside = points.filter(([, value]) => value >= y.domain()[0] && value <= y.domain()[1]);
     this.fitted.attr("d", Number.isFinite(found.B) ? line().x((d) => x(d[0])).y((d) => y(d[1]))(inside) : null);
     byId("scatter-note").replaceChildren(
-      `${this.ratio.length} layers and windows: `,
-      ...keys([["total", "the window that plays"]], "key"),
-      ...keys([...(Number.isFinite(found.B) ? [["total", "B the same everywhere"]] : []), ["neutral", "each its share"]]),
-      outside ? `– ${outside} without a positive stress are left out` : "",
+      `${this.ratio.length} points, one per layer and window: `,
+      ...keys([["total", "the window of the frame shown"]], "key"),
+      ...keys([...(Number.isFinite(found.B) ? [["total", "B the same everywhere"]] : []), ["neutral", "equal shares"]]),
+      outside ? `– ${outside} points without positive stresses are left out` : "",
     );
   }
 
-  /** Begin of the window that holds the present frame, s; null if there is none. */
+  /** Begin of the window that contains the frame shown, s; null if there is none. */
   windowNow() {
     const window = this.windowTimes().find(([begin, end]) => state.time >= begin && state.time < end);
     return window ? window[0] : null;

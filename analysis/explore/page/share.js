@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The card of the share p of a mixed contact that goes to its large grain, and of the B that follows.
+// Card with the share p of a mixed contact that its large grain gets, and with the resulting B.
 
 import {Chart, margin, upright} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
@@ -11,13 +11,13 @@ import {set, state} from "./state.js";
 
 const uniform = (p) => numberedRule("uniform", p);
 
-/** Q for which power:Q gives the share p to grains of nominal radii; limited to the slider, 0 to 4. */
+/** Exponent Q for which power:Q gives the share p with nominal radii; limited to the range of the slider, 0 to 4. */
 function powerOf(fit, p) {
   const Q = Math.log(p / (1 - p)) / Math.log(fit.size_ratio);
   return Math.min(4, Math.max(0, Number.isNaN(Q) ? 1 : Q));
 }
 
-/** Names of the codes that use a rule: "MercuryDPM; YADE, PFC". */
+/** Short names of the programs that use a rule: "MercuryDPM; YADE, PFC". */
 function shortUse(text) {
   return text
     .replace(/ compute stress\/atom.*| coarse graining| stress per body|^grseg, |^sums over | \(.*\)/g, "")
@@ -25,7 +25,7 @@ function shortUse(text) {
 }
 
 export class Share {
-  /** `runsOfFit()`: runs that the plots show. */
+  /** `fitOfRun()`: the fit that the plots show; `runsOfFit()`: the runs it is made of. */
   constructor(content, fitOfRun, runsOfFit) {
     this.known = content.rules;
     this.fitOfRun = fitOfRun;
@@ -34,7 +34,7 @@ export class Share {
       scales: {x: scaleLinear().domain([0, 1]), y: scaleLinear()},
       labels: {x: "share p of the large grain", y: "B"},
       height: 300,
-      name: "B over the share p, with its band, p*, and the rules of published codes",
+      name: "B over the share p, with the band of its intervals, p*, and the rules of published programs",
     });
     const {under, marks} = this.chart;
     this.band = under.append("path").attr("class", "band");
@@ -71,7 +71,7 @@ export class Share {
       byId(id).addEventListener(id.endsWith("number") ? "change" : "input", ({target: {valueAsNumber: value}}) => {
         if (!Number.isNaN(value)) set({rule: numberedRule(kind, value)});
       });
-    // Another slider, at the foot of the window, replaces the first one while that is out of sight.
+    // A second slider appears at the bottom of the window while the first one is out of sight.
     new IntersectionObserver(([{isIntersecting: inSight}]) => {
       byId("dock").hidden = inSight;
     }).observe(byId("p-row"));
@@ -88,7 +88,7 @@ export class Share {
     svg.addEventListener("pointermove", drag);
   }
 
-  /** Draws everything that depends on the run, not on the rule. */
+  /** Draws everything that depends on the run but not on the rule. `others`: fits of the other runs. */
   layout(others) {
     const fit = this.fitOfRun();
     const {chart} = this;
@@ -128,7 +128,7 @@ export class Share {
     byId("p-row").style.paddingRight = `${margin.right - 9}px`;
     byId("q-note").textContent = hasPowers(fit)
       ? ""
-      : "Here Q shares by nominal radii, p = r^Q/(1 + r^Q); grseg-fit --partition power:Q takes the radii of each grain.";
+      : "Here power:Q uses nominal radii: p = r^Q/(1 + r^Q), r = r_L/r_S. grseg-fit --partition power:Q uses the radius of each grain.";
   }
 
   #drawZero(fit) {
@@ -154,7 +154,7 @@ export class Share {
       .text(`p* = ${fixed(p)}`);
   }
 
-  /** Draws marks of published codes, with their names above the curve; of two that would overlap one stands higher. */
+  /** Marks the rules of published programs on the curve, with names above it. A name that would overlap another is put higher. */
   #drawCodes(fit) {
     const {x, y} = this.chart.scales;
     const {left} = this.chart.inner;
@@ -168,7 +168,7 @@ export class Share {
       .sort((a, b) => b.p - a.p);
     this.codes.selectAll("*").remove();
     marks.forEach(({name, use, p, B}, k) => {
-      // Names of codes with nearly equal shares would overlap.
+      // The names of two rules with nearly equal shares would overlap.
       const near = k > 0 && x(marks[k - 1].p) - x(p) < 12;
       const to = {x: Math.max(left + 60, x(p) - 18), y: y(B) - (near ? 36 : 18)};
       this.codes.append("line").attr("x1", x(p)).attr("y1", y(B)).attr("x2", to.x + 2).attr("y2", to.y - 3);
@@ -179,7 +179,7 @@ export class Share {
     });
   }
 
-  /** Draws everything that depends on the rule. */
+  /** Draws everything that depends on the rule. `found`: the result of fitOf(). */
   update(stress, found) {
     const fit = this.fitOfRun();
     const {rule} = state;
@@ -224,7 +224,7 @@ export class Share {
 
   #withoutShare(fit) {
     if (state.rule.kind === "drop") return "mixed contacts belong to neither species";
-    return fit.two ? "there are no mixed contacts to share" : "each mixed contact by its own radii";
+    return fit.two ? "there are no mixed contacts to share" : "each mixed contact is shared by its own radii";
   }
 
   #updateReadout(fit, p, B, stress) {
@@ -239,18 +239,18 @@ export class Share {
     const [low, high] = band;
     const sure = low > 0 || high < 0;
     byId("b-words").textContent = !Number.isFinite(B)
-      ? `No B: ${rule.kind === "drop" ? "the stresses of the two species do not add up to the whole" : "in no layer and window do the two species bear a pressure"}.`
-      : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, by this rule${Number.isFinite(low) && !sure ? "; but the interval holds 0" : ""}.`;
+      ? `No B: ${rule.kind === "drop" ? "the stresses of the two species do not add up to the total stress" : "no layer has a positive pressure in any window"}.`
+      : `${B > 0 ? "Large grains carry more than their share of the pressure" : "Large grains carry less than their share of the pressure"}, under this rule${Number.isFinite(low) && !sure ? "; but the interval includes 0" : ""}.`;
   }
 
-  /** Commands that print the same B, in the order in which they are run. */
+  /** Shows the commands that print the same B, in the order in which they must run. */
   #updateCommand(fit) {
     const rule = commandRule(fit, state.rule);
     const ofPower = rule.kind === "power" ? ` --partition ${ruleName(rule)}` : "";
     const all = this.runsOfFit().map((run) => run.commands);
     const made = all.filter(({sums}) => sums).map(({sums, file}) => `${sums}${ofPower} -o ${file}`);
     const pair = fit.settings.pair ? ` --pair ${fit.settings.pair}` : "";
-    const {fit: options} = all.find(({sums}) => !sums) ?? all[0]; // a table that was given is cut by grseg-fit
+    const {fit: options} = all.find(({sums}) => !sums) ?? all[0]; // grseg-fit selects the rows of a table that was given
     const files = all.map(({file}) => file).join(" ");
     byId("command").textContent = [...made, `grseg-fit ${files} --partition ${ruleName(rule)}${pair}${options}`].join("\n");
   }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The state of the page: the reader's choices. Listeners are called once for all changes between two paints.
+// State of the page: the reader's choices. Listeners are called once for all changes between two repaints.
 
 export const state = {
   tab: "explore",
   rule: {kind: "size", value: NaN},
-  run: 0, // of the plots; the number of runs stands for all together
-  time: 0, // s
-  player: 0, // run of the chosen grain
-  grain: -1, // the chosen grain, -1: none
-  layer: null, // [bottom, top] in m, under the pointer
+  run: 0, // number of the run that the plots show, from 0; the number of runs means all runs together
+  time: 0, // time of the frame shown, s
+  player: 0, // number of the run of the chosen grain
+  grain: -1, // number of the chosen grain in the page, -1: none
+  layer: null, // [bottom, top] of the layer under the pointer, m
   showGrains: true,
   showForces: true,
   onlyMixed: false,
@@ -18,12 +18,12 @@ export const state = {
 const listeners = [];
 let changed = null;
 
-/** `listener` gets the names of what has changed. */
+/** Adds a listener, which is called with the names of the entries that have changed. */
 export function listen(listener) {
   listeners.push(listener);
 }
 
-/** Calls the listeners now. */
+/** Calls the listeners now if anything has changed. */
 export function flush() {
   if (!changed) return;
   const names = changed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays all runs with one clock.
+// Controls that play all runs with one clock.
 
 import {byId, fixed} from "./format.js";
 import {set, state} from "./state.js";
@@ -10,7 +10,7 @@ export class Transport {
     const times = all.flatMap((frames) => frames.times).sort((a, b) => a - b);
     this.times = times.filter((time, k) => k === 0 || time - times[k - 1] > 1e-9);
     const step = (this.times[this.times.length - 1] - this.times[0]) / (this.times.length - 1);
-    this.digits = Math.min(6, Math.max(2, Math.ceil(-Math.log10(step)) || 0)); // that tell frames apart
+    this.digits = Math.min(6, Math.max(2, Math.ceil(-Math.log10(step)) || 0)); // decimals of times with which frames differ
     this.slider = byId("frame");
     this.slider.max = this.times.length - 1;
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));

@@ -23,12 +23,12 @@
 namespace grseg {
 namespace {
 
-// Limits of the work for one message: processor seconds, and bytes of memory beside the memory of
-// the program. Sound files need a tenth of it.
+// Limits of the work for one message: processor time in seconds, and additional memory in bytes.
+// Undamaged files need a tenth of both.
 constexpr rlim_t patience = 1, bytes_per_second = 1 << 20;
 constexpr rlim_t memory = 128 << 20, memory_per_byte = 64;
 
-/// True where all bytes were passed; `pass` is read or write.
+/// Calls `pass` (read or write) until all bytes have been transferred; false if that fails.
 template <class Pass, class Byte>
 bool pass_all(Pass pass, int end, Byte* bytes, std::size_t count)
 {
@@ -42,19 +42,19 @@ bool pass_all(Pass pass, int end, Byte* bytes, std::size_t count)
   return true;
 }
 
-/// `code` is 0 for a message, and otherwise the exit code of a ToolError.
+/// Writes a message (`code` 0), or an error's text with the exit code of the ToolError.
 void write_message(int end, std::int32_t code, const std::string& text)
 {
   std::uint64_t size = text.size();
   const auto header = packing::packed(code, size);
   if (!pass_all(write, end, header.data(), header.size()) ||
       !pass_all(write, end, text.data(), text.size()))
-    _exit(exit_trouble);  // nobody listens any more
+    _exit(exit_trouble);  // the parent process has closed the pipe
 }
 
 void limit_memory(rlim_t file_size)
 {
-  rlim_t pages = 0;  // of the program so far
+  rlim_t pages = 0;  // memory pages that the program uses so far
   rlimit limit{};
   if (!(std::ifstream("/proc/self/statm") >> pages)) return;
   if (getrlimit(RLIMIT_AS, &limit) != 0) return;
@@ -63,7 +63,7 @@ void limit_memory(rlim_t file_size)
   setrlimit(RLIMIT_AS, &limit);
 }
 
-/// For the next message: SIGPROF ends the process.
+/// Restarts the timer for the next message; SIGPROF ends the process when the time is used up.
 void limit_time(rlim_t file_size)
 {
   itimerval once{};
@@ -71,7 +71,7 @@ void limit_time(rlim_t file_size)
   setitimer(ITIMER_PROF, &once, nullptr);
 }
 
-/// All that the process does.
+/// The whole program of the separate process: sets limits, runs `work`, reports errors, exits.
 [[noreturn]] void work_apart(int end, const std::string& file, const Apart::Work& work)
 {
   std::error_code none;
@@ -91,8 +91,8 @@ void limit_time(rlim_t file_size)
     write_message(end, error.code(), error.what());
   } catch (const std::bad_alloc&) {
     write_message(end, exit_content,
-                  fmt::format("{}: asks for more memory than a file of this size can fill; the "
-                              "file is damaged: copy it again",
+                  fmt::format("{}: reading asks for more memory than a file of this size can fill; "
+                              "the file is damaged: copy it again",
                               file));
   } catch (const std::exception& error) {
     write_message(end, exit_content, fmt::format("{}: {}", file, error.what()));
@@ -100,7 +100,7 @@ void limit_time(rlim_t file_size)
   _exit(exit_done);
 }
 
-/// The end of a process that sent nothing more, as the verb of a sentence.
+/// Describes how a process ended without a message, as part of a sentence ("ends in a crash ...").
 std::string how_it_ends(int status)
 {
   if (!WIFSIGNALED(status))
@@ -116,7 +116,7 @@ std::string how_it_ends(int status)
   throw ToolError(static_cast<ExitCode>(code), sentence);
 }
 
-/// One message of the process: sent when the archive has been opened, and with each moment.
+/// A message of the separate process: sent once the archive is open, and with each frame.
 struct News {
   ArchiveFacts facts;
   std::vector<std::string> remarks;
@@ -159,8 +159,8 @@ class ApartArchive : public Archive {
   {
     if (!news_.more) return false;
     hear();
-    std::swap(moment, news_.moment);  // memory is kept for the next but one
-    if (news_.more) place_ = fmt::format("{} or behind", moment.place);
+    std::swap(moment, news_.moment);  // so that the memory of both is used again
+    if (news_.more) place_ = fmt::format("{} or later", moment.place);
     return news_.more;
   }
 
@@ -184,7 +184,7 @@ Apart::Apart(std::string file, const Work& work) : file_(std::move(file))
   process_ = fork();
   if (process_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(exit_trouble);  // it ended before it was said
+    if (getppid() != parent) _exit(exit_trouble);  // the parent ended before prctl()
     close(ends[0]);
     work_apart(ends[1], file_, work);
   }
@@ -224,12 +224,12 @@ void Apart::explain_end(const std::string& place)
   process_ = -1;
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
     throw RunError(
-        fmt::format("{}: the process that reads it was killed; is memory short?", file_));
-  throw FormatError(fmt::format("{}: reading it {}; the file is damaged: copy it again", place,
+        fmt::format("{}: the process that reads the file was killed; is memory short?", file_));
+  throw FormatError(fmt::format("{}: reading {}; the file is damaged: copy it again", place,
                                 how_it_ends(status)));
 }
 
-// All members: a struct that gets another one does not compile until it is named here, too.
+// Each each_of() lists all members: code with a new member does not compile until it is added here.
 template <class Pass>
 void each_of(Question& question, Pass& pass)
 {

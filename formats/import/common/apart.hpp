@@ -17,23 +17,23 @@
 
 namespace grseg {
 
-/// Work in a process of its own on a file that anybody may have made. The HDF5 library crashes, never
-/// ends or asks for any memory on some damaged files; here this becomes a sentence.
+/// Reads an untrusted file in a separate process. On some damaged files the HDF5 library crashes,
+/// never ends or asks for unlimited memory; this class turns that into an error message.
 class Apart {
  public:
   using Send = std::function<void(const std::string& message)>;
   using Work = std::function<void(const Send& send)>;
 
-  /// Begins `work`, which sends messages about `file`. RunError where no process can be had.
+  /// Starts `work`, which sends messages about `file`. Throws RunError if this is impossible.
   Apart(std::string file, const Work& work);
   Apart(const Apart&) = delete;
   Apart& operator=(const Apart&) = delete;
-  /// Ends the process.
+  /// Kills the process.
   ~Apart();
 
-  /// The next message, which stays until the one behind it is received. ToolError with the sentence
-  /// and the exit code of what `work` threw. FormatError naming `place` where the process crashes, or
-  /// where the message takes more processor time or memory than the size of the file explains.
+  /// The next message, valid until the next call. Throws a ToolError with the text and exit code of
+  /// the error that `work` threw. Throws FormatError naming `place` if the process crashes, or if
+  /// the message takes more processor time or memory than the size of the file explains.
   const std::string& receive(const std::string& place);
 
  private:
@@ -41,14 +41,14 @@ class Apart {
 
   std::string file_;
   pid_t process_ = -1;
-  int end_ = -1;  // of the pipe
+  int end_ = -1;  // file descriptor of the pipe's reading end
   std::string message_;
 };
 
 }  // namespace grseg
 
-/// Values as bytes and back, for another process of the same program. `each_of(value, pass)` calls
-/// `pass` with all members of a struct; it stands in the namespace of the struct.
+/// Converts values to bytes and back, for another process of the same program. A struct needs a
+/// function `each_of(value, pass)` in its namespace, which calls `pass` with all its members.
 namespace grseg::packing {
 
 template <class T>
@@ -112,7 +112,7 @@ class Pass {
   }
 };
 
-/// The bytes of values, and values from their bytes.
+/// Converts values to bytes; unpack() reads them back.
 template <class... T>
 std::string packed(T&... values)
 {
@@ -131,8 +131,8 @@ void unpack(std::string_view bytes, T&... values)
 
 namespace grseg {
 
-/// The archive that `open` opens, of one `file` and of a format without --columns, read in a process
-/// of its own.
+/// Opens an archive of a single `file` by `open`, and reads it in a separate process. Only for
+/// formats without --columns.
 std::unique_ptr<Archive> open_apart(const std::string& file,
                                     const std::function<std::unique_ptr<Archive>()>& open);
 

@@ -9,7 +9,7 @@
 namespace grseg {
 namespace {
 
-constexpr std::size_t enough_moments = 3;  // for a sentence
+constexpr std::size_t enough_moments = 3;  // frames listed in a message
 
 std::string sentence_of(const std::vector<Question>& questions)
 {
@@ -69,7 +69,7 @@ void enclose_grains(ArchiveMoment& moment)
   }
 }
 
-void Unmatched::add(double moment)
+void Unmatched::add(const std::string& moment)
 {
   ++count;
   if (first.size() < enough_moments) first.push_back(moment);
@@ -97,10 +97,10 @@ bool Matching::next(const Table& grains, const Table& contacts, const std::funct
   while (more_grains && goes_on(grains_alone_)) more_grains = pass(grains, grains_alone_);
   while (more_contacts && goes_on(contacts_alone_)) more_contacts = pass(contacts, contacts_alone_);
   if (!any_of_both_ && grains_alone_.count > 0 && contacts_alone_.count > 0)
-    throw FormatError(fmt::format(
-        "no moment is in both tables: the grains begin with {:.10g}, the contacts with {:.10g}; write "
-        "both at the same moments",
-        fmt::join(grains_alone_.first, ", "), fmt::join(contacts_alone_.first, ", ")));
+    throw FormatError(
+        fmt::format("no frame is in both tables: the grains begin with {}, the contacts with {}; "
+                    "write both at the same times",
+                    fmt::join(grains_alone_.first, ", "), fmt::join(contacts_alone_.first, ", ")));
   return false;
 }
 
@@ -109,8 +109,8 @@ void add_remark(std::vector<std::string>& remarks, const Unmatched& alone, const
 {
   if (alone.count > 0)
     remarks.push_back(
-        fmt::format("{} moments have {} but no {} and are left out, the first at {} {:.10g}",
-                    alone.count, what, without, unit, alone.first[0]));
+        fmt::format("{} frames have {} but no {} and are left out, the first at {} {}", alone.count,
+                    what, without, unit, alone.first[0]));
 }
 
 std::vector<std::string> Matching::remarks(const char* unit) const

@@ -24,7 +24,7 @@ bool is_digit(char c)
   return c >= '0' && c <= '9';
 }
 
-/// The run of digits at `at`, without leading zeros; moves `at` behind it.
+/// The digits that begin at `at`, without leading zeros; moves `at` behind the last digit.
 std::string number_at(const std::string& text, std::size_t& at)
 {
   const auto begin = at;
@@ -33,7 +33,7 @@ std::string number_at(const std::string& text, std::size_t& at)
   return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
 }
 
-/// `%` stands for the number of a processor unless it is part of a name.
+/// Names of files that match `pattern`. `%` is part of the name or, if no file has it, like `*`.
 std::vector<std::string> matches_of(std::string pattern)
 {
   glob_t found{};
@@ -50,27 +50,29 @@ using namespace std::string_view_literals;
 
 constexpr auto unpack_first = "unpack it, and name the files that were in it";
 constexpr auto repack =
-    "unpack it, or pack it by gzip, bzip2, xz or zstd, which are read as they are";
+    "decompress it, or compress it by gzip, bzip2, xz or zstd, which are read as they are";
 constexpr auto to_tables = "write its grains and contacts as tables (--format csv)";
 constexpr auto to_dumps =
-    "it has no contact forces, which an import needs; write `dump custom` for grains and `dump local` for contacts";
-constexpr auto in_pandas = "make a table of it, in Python by pandas and to_csv (--format csv)";
+    "it has no contact forces, which an import needs; write `dump "
+    "custom` for grains and `dump local` for contacts";
+constexpr auto in_pandas = "write it as a table, in Python by pandas and to_csv (--format csv)";
 constexpr auto from_restart =
-    "read it there, and write `dump custom` for grains and `dump local` for contacts by `run 0`";
+    "read it in that program; then `run 0` with a `dump custom` "
+    "of grains and a `dump local` of contacts";
 constexpr auto from_paraview =
     "write dumps as text instead, or save it as a table in ParaView (--format csv)";
 
 struct Kind {
   const char* what;
   const char* way_out;
-  std::initializer_list<std::string_view> bytes;  // one of these
-  std::size_t at = 0;                             // where they stand
+  std::initializer_list<std::string_view> bytes;  // alternatives: the file has one of these at `at`
+  std::size_t at = 0;                             // offset in the file, bytes
 };
 
 constexpr Kind kinds[] = {
     {"a zip archive, as xlsx, ods and npz are",
-     "unpack it and name the files that were in it, or save its sheets or arrays as tables (--format "
-     "csv)",
+     "unpack it and name the files that were in it, or save its "
+     "sheets or arrays as tables (--format csv)",
      {"PK\x03\x04"sv}},
     {"an empty zip archive", unpack_first, {"PK\x05\x06"sv}},
     {"a tar archive", unpack_first, {"ustar"sv}, 257},
@@ -107,11 +109,11 @@ constexpr Kind kinds[] = {
      {"DUMPATOM"sv, "DUMPCUSTOM"sv},
      8},
     {"a saved simulation of YADE",
-     "load it there and write tables by scripts/archives/yade_export.py",
+     "load it in YADE and write tables by scripts/archives/yade_export.py",
      {"serialization::archive"sv},
      8},
     {"a GSD file of HOOMD", to_tables, {"\xdf\x65\xdf\x65\xdf\x65\xdf\x65"sv}},
-    {"a DCD file, which holds positions alone", to_dumps, {"CORD"sv}, 4},
+    {"a DCD file, which contains positions only", to_dumps, {"CORD"sv}, 4},
     {"a trajectory of GROMACS", to_dumps, {"\0\0\x07\xc9"sv, "\0\0\x07\xcb"sv}},
     {"a pointer of Git LFS", "fetch the file itself (git lfs pull)", {"version https://git-lfs"sv}},
     {"a page of HTML", "download the file itself", {"<!DOCTYPE html"sv, "<html"sv}},
@@ -146,14 +148,14 @@ bool are_numbers(const std::vector<std::string_view>& words, std::size_t first)
                      [&](std::string_view word) { return read_number(word, number); });
 }
 
-/// A number of rows, a comment, then rows of an element and at least three numbers.
+/// True for an xyz file: number of rows, a comment, then rows of an element and >= 3 numbers.
 bool is_xyz(const std::vector<std::vector<std::string_view>>& lines)
 {
   return lines.size() > 2 && lines[0].size() == 1 && are_numbers(lines[0], 0) &&
          lines[2].size() > 3 && are_numbers(lines[2], 1);
 }
 
-/// After any first line "12 atoms" and "0 1 xlo xhi".
+/// True for a data file of LAMMPS, which contains lines such as "12 atoms" and "0 1 xlo xhi".
 bool is_data_of_lammps(const std::vector<std::vector<std::string_view>>& lines)
 {
   const auto has = [&](std::size_t words, std::string_view last) {
@@ -165,7 +167,7 @@ bool is_data_of_lammps(const std::vector<std::vector<std::string_view>>& lines)
 }
 
 struct Hdf5Start {
-  std::vector<std::string> groups;  // names in the root
+  std::vector<std::string> groups;  // names in the root of the file
   bool of_grseg = false;
 };
 
@@ -181,7 +183,7 @@ Hdf5Start start_of_hdf5(const std::string& path)
   return start;
 }
 
-/// The sentence of other_kind() for an HDF5 file with these names in its root.
+/// Like other_kind(), for an HDF5 file with these names in its root.
 std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
 {
   const auto has = [&](const char* name) {

@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <vector>
 
-/// Helpers to build and verify frames. Until it is written, a frame of an import has three
-/// components, also where the flow is one in a plane: then all components across it are 0.
+/// Helpers to build and verify frames. Until a frame of an import is written, its vectors have
+/// three components. In a flow in a plane the component across the plane is 0.
 namespace grseg {
 
-/// The shortest of the vectors that differ from this one by periods of the cell.
+/// The shortest vector that differs from `between` by whole periods of the cell.
 inline Vec3 minimum_image(const Box& box, Vec3 between)
 {
   if (box.periodic_x) between.x() -= box.length_x * std::round(between.x() / box.length_x);
@@ -21,7 +21,7 @@ inline Vec3 minimum_image(const Box& box, Vec3 between)
   return between;
 }
 
-/// The row of a grain that a contact names, as an index.
+/// A grain's row, converted to the type of an array index.
 inline std::size_t row(std::int32_t index)
 {
   return static_cast<std::size_t>(index);
@@ -39,7 +39,7 @@ struct Range {
   double middle() const { return (low + high) / 2; }
 };
 
-/// A `share` of the values is smaller; 0 where there are none. Changes their order.
+/// Quantile: a fraction `share` of the values is smaller; 0 if there are no values. Reorders them.
 inline double quantile(std::vector<double>& values, double share)
 {
   if (values.empty()) return 0;
@@ -49,7 +49,7 @@ inline double quantile(std::vector<double>& values, double share)
   return *place;
 }
 
-/// The upper of two in the middle.
+/// Median; the larger of the two middle values if their number is even.
 inline double median(std::vector<double>& values)
 {
   return quantile(values, 0.5);

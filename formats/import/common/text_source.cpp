@@ -26,14 +26,14 @@
 
 namespace grseg {
 
-/// Unpacks zstd as a filter of Boost.Iostreams (a model of its SymmetricFilter). Boost's own one is
-/// silent about a stream that ends early.
+/// Decompresses zstd, as a filter of Boost.Iostreams (a model of its SymmetricFilter). Boost's own
+/// filter does not report a stream that ends early.
 class ZstdDecoder {
  public:
   using char_type = char;
 
-  /// Unpacks what fits; false at the end of the data. std::runtime_error where they are damaged or end
-  /// early.
+  /// Decompresses as much as fits into `to`; false at the end of the data. Throws
+  /// std::runtime_error if the data are damaged or end early.
   bool filter(const char*& from, const char* from_end, char*& to, char* to_end, bool is_all)
   {
     ZSTD_inBuffer in{from, static_cast<std::size_t>(from_end - from), 0};
@@ -56,7 +56,7 @@ class ZstdDecoder {
     void operator()(ZSTD_DStream* stream) const { ZSTD_freeDStream(stream); }
   };
   std::unique_ptr<ZSTD_DStream, Free> stream_{ZSTD_createDStream()};
-  bool in_frame_ = false;  // data of a frame are still to come
+  bool in_frame_ = false;  // true: the current frame of zstd is not complete
 };
 
 namespace {
@@ -68,8 +68,8 @@ constexpr std::streamsize filter_buffer = 1 << 16;
 
 using Stream = io::filtering_streambuf<io::input>;
 
-/// Pushes the filter that unpacks `file`, if its first bytes say that it is packed. (zstd may begin with
-/// a frame to be skipped.)
+/// Pushes the filter that decompresses `file`, if its first bytes show that it is compressed. (A
+/// zstd file may begin with a skippable frame.)
 void push_unpacking(const std::string& file, Stream& stream)
 {
   std::array<char, 6> head{};
@@ -94,7 +94,8 @@ std::unique_ptr<Stream> open_unpacked(const std::string& file)
   return stream;
 }
 
-/// Fills `to` as far as the file goes. FormatError where its packed data are damaged or end early.
+/// Fills `to`, or the first part of it if the file is shorter; returns the number of bytes. Throws
+/// FormatError if compressed data are damaged or truncated.
 std::size_t read_from(std::streambuf& stream, std::span<char> to, const std::string& file,
                       std::size_t lines_before)
 {
@@ -114,7 +115,7 @@ TextSource::TextSource(std::vector<std::string> files)
 {
 }
 
-/// A byte-order mark is passed over. FormatError where the file is of a kind that is no text archive.
+/// Reads the start of a file, skips its byte-order mark. Throws FormatError for other than text.
 void TextSource::read_start()
 {
   constexpr std::size_t enough = 4096;
@@ -125,7 +126,7 @@ void TextSource::read_start()
     throw FormatError(fmt::format("{} {}", file(), kind));
 }
 
-/// Fills the buffer behind what is left in it; 0 at the end of the file.
+/// Moves the rest of the buffer to its start and reads more bytes; returns their number.
 std::size_t TextSource::read_more()
 {
   stop_if_interrupted();
@@ -133,15 +134,16 @@ std::size_t TextSource::read_more()
   end_ -= begin_;
   begin_ = 0;
   if (end_ == buffer_size)
-    throw FormatError(fmt::format("{}, line {}: is longer than a megabyte; is this a text archive?",
-                                  file(), number_ + 1));
+    throw FormatError(
+        fmt::format("{}, line {}: the line is longer than a megabyte; is this a text archive?",
+                    file(), number_ + 1));
   const auto count =
       read_from(*stream_, {buffer_.get() + end_, buffer_size - end_}, file(), number_);
   end_ += count;
   return count;
 }
 
-/// The next line of the file that is open; false where there is none.
+/// Reads the next line of the open file; false at its end.
 bool TextSource::take_line()
 {
   std::size_t searched = 0;
@@ -195,12 +197,12 @@ void TextSource::fail_at_end(const char* what)
   const auto end = place();
   if (next())
     throw FormatError(
-        fmt::format("{}: the file ends in {}, and {} goes on; copy it again, or cut the "
-                    "incomplete moment off",
+        fmt::format("{}: the file ends in {}, and {} goes on; copy it "
+                    "again, or cut the incomplete frame off",
                     end, what, file()));
   throw TruncatedArchive(
       fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete "
-                  "moment with --drop-incomplete",
+                  "frame with --drop-incomplete",
                   end, what));
 }
 

@@ -9,29 +9,30 @@
 
 namespace grseg {
 
-/// The lines of one or many text files, one after the other, holding about a megabyte at a time.
-/// Files packed by gzip, bzip2, xz or zstd (recognised by their first bytes) are unpacked on the way,
-/// and byte-order marks of UTF-8 are passed over. UsageError where a file is missing, FormatError
-/// naming file and line where packed data are damaged or end early, where a line is longer than a
-/// megabyte, or where a file is of another kind (archive_files.hpp); RunError where the disk fails.
+/// Reads the lines of one or many text files in sequence, with about a megabyte in memory.
+/// Decompresses files in gzip, bzip2, xz or zstd (recognised by their first bytes) and skips
+/// byte-order marks of UTF-8. Throws UsageError if a file is missing, RunError if the disk fails,
+/// and FormatError with file and line if compressed data are damaged or truncated, if a line is
+/// longer than a megabyte, or if the file is of another kind (archive_files.hpp).
 class TextSource {
  public:
   explicit TextSource(std::vector<std::string> files);
 
   /// Advances to the next line; false at the end of the last file.
   bool next();
-  /// The line without its end, valid until `next`.
+  /// The current line without its line end, valid until the next call of `next`.
   std::string_view line() const { return line_; }
-  /// False where the line ends with its file: the rest of it may be missing.
+  /// False if the file ends without a line end: the rest of the line may be missing.
   bool line_is_whole() const { return whole_; }
-  /// The file that `line` is of.
+  /// The file of the current line.
   const std::string& file() const { return files_[opened_ - 1]; }
-  /// "atoms.dump, line 12": where `line` is.
+  /// File and number of the current line: "atoms.dump, line 12".
   std::string place() const;
-  /// FormatError naming it.
+  /// Throws FormatError with place() and `why`.
   [[noreturn]] void fail(const std::string& why) const;
-  /// Where the file ends in the middle of `what`: TruncatedArchive, or FormatError if there is another
-  /// file behind it, whose moments must not be lost with --drop-incomplete.
+  /// Throws if the file ends in the middle of `what`: TruncatedArchive if it is the last file.
+  /// Otherwise FormatError, because --drop-incomplete would lose the frames of the files that
+  /// follow.
   [[noreturn]] void fail_at_end(const char* what);
 
  private:
@@ -40,23 +41,23 @@ class TextSource {
   bool take_line();
 
   std::vector<std::string> files_;
-  std::size_t opened_ = 0;  // files
+  std::size_t opened_ = 0;  // number of files opened so far
   std::unique_ptr<std::streambuf> stream_;
-  std::unique_ptr<char[]> buffer_;   // memory that a small file does not fill is never touched
-  std::size_t begin_ = 0, end_ = 0;  // of what is not yet handed out
+  std::unique_ptr<char[]> buffer_;   // not initialised: a small file touches little of this memory
+  std::size_t begin_ = 0, end_ = 0;  // range of the bytes in buffer_ that are not yet returned
   std::string_view line_;
   std::size_t number_ = 0;
   bool whole_ = true;
 };
 
-/// The first bytes of a file, unpacked, or all it has. UsageError where it is missing, FormatError where
-/// its packed data are damaged or end so early.
+/// The first `bytes` bytes of a file, decompressed; fewer if it is shorter. Throws UsageError if
+/// the file is missing, FormatError if these bytes are damaged or truncated.
 std::string unpacked_start(const std::string& file, std::size_t bytes);
 
-/// The words of a line, which are separated by blanks.
+/// The words of a line, separated by blanks or tabs.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// Text of a file as it can be quoted in a message: at most 40 characters, all printable.
+/// A quotation of text from a file for a message: at most 40 characters, all printable.
 std::string in_quotes(std::string_view text);
 
 }  // namespace grseg

@@ -19,8 +19,8 @@ bool are_digits(std::string_view text)
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// The exponent of "D-05", or of "-105" where its three digits leave Fortran no room for the letter;
-/// "" of other text.
+/// The exponent in Fortran's notation: -05 of "D-05", or "-105" (Fortran omits the letter before
+/// three digits). "" for other text.
 std::string_view exponent_of_fortran(std::string_view text)
 {
   const bool has_letter = text.find_first_of("DdQq") == 0;
@@ -30,8 +30,7 @@ std::string_view exponent_of_fortran(std::string_view text)
   return are_digits(digits) && (has_letter || (has_sign && digits.size() == 3)) ? text : "";
 }
 
-/// Reads a number as strtod does: one too small for a double is 0, which from_chars calls out of
-/// range.
+/// Reads a number by strtod: one too small for a double becomes 0, an error for from_chars.
 bool read_as_c(const std::string& text, double& number)
 {
   number = std::strtod(text.c_str(), nullptr);
@@ -39,7 +38,7 @@ bool read_as_c(const std::string& text, double& number)
 }
 
 constexpr std::size_t most_words = 10'000;
-constexpr double first_word = 1e10;  // codes of words lie above all numbers
+constexpr double first_word = 1e10;  // code of the first word; larger than the number of any type
 constexpr double largest_type = std::numeric_limits<std::int32_t>::max();
 
 bool is_nan_or_infinite(std::string_view word)
@@ -132,7 +131,7 @@ void TypeNames::fill(std::span<const double> read, const std::string& place, Arc
   }
   if (has_words_ && had_numbers_)
     throw FormatError(fmt::format(
-        "{}: types are words from here on, such as {}, and were numbers at moments before; import "
+        "{}: types are words from here on, such as {}, and were numbers in earlier frames; import "
         "the parts of this archive separately, with --begin and --end",
         place, in_quotes(words_.front())));
   had_numbers_ = had_numbers_ || (!has_words_ && !grains.type.empty());

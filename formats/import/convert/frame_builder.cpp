@@ -12,19 +12,19 @@
 namespace grseg {
 namespace {
 
-/// The row of a grain that a contact names.
+/// Row of the grain with this id. Throws FormatError if the frame does not have it.
 std::size_t row_of(const ImportedBed& bed, std::int64_t id, const ArchiveMoment& moment,
                    const Frame<3>& frame)
 {
   const auto found = bed.rows.find(id);
   if (found >= 0 && is_present(frame, row(found))) return row(found);
   throw FormatError(fmt::format(
-      "{}: a contact names grain {}, which is not among the grains of this moment; are i and j "
+      "{}: a contact names grain {}, which is not among the grains of this frame; are i and j "
       "ids, and were grains and contacts written at the same steps?",
       moment.place, id));
 }
 
-/// Readers of some formats do not check this.
+/// Throws FormatError for a number that is not finite; not all readers check this.
 void require_numbers(const ImportedBed& bed, const ArchiveMoment& moment, const Frame<3>& frame)
 {
   const auto fail = [&](const std::string& what) {
@@ -50,21 +50,21 @@ void require_same_cell(const ImportedBed& bed, const ArchiveMoment& moment)
     const double length = moment.high[period.axis] - moment.low[period.axis];
     if (std::abs(length - period.length) > 1e-9 * period.length)
       throw FormatError(
-          fmt::format("{}: the periodic length is {:.10g}, but {:.10g} in the first moment; a cell "
-                      "that changes is not imported",
+          fmt::format("{}: the periodic length is {:.10g}, but {:.10g} in the first frame; a cell "
+                      "that changes cannot be imported",
                       moment.place, length, period.length));
   }
 }
 
-/// A component that an archive of a flow in space lacks would be taken for 0.
+/// Throws FormatError if a vector lacks a component, which in three dimensions would be read as 0.
 void require_all_components(const ArchiveMoment& moment)
 {
   auto missing = moment.grains.missing;
   missing.insert(missing.end(), moment.contacts.missing.begin(), moment.contacts.missing.end());
   if (missing.empty()) return;
   throw FormatError(fmt::format(
-      "{}: a flow in three dimensions needs all components, but there is no {}; write this column, "
-      "too, or leave out the other components of the same vector",
+      "{}: a flow in three dimensions needs all components, but there is no {}; write this column "
+      "as well, or leave out the other components of the same vector",
       moment.place, fmt::join(missing, ", nor ")));
 }
 
@@ -76,7 +76,7 @@ void place(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t g, s
   for (const auto& [direction, length, axis, forward] : bed.periods) {
     double periods = std::floor(x[direction] / length);
     if (periods != 0) x[direction] -= periods * length;
-    if (x[direction] >= length) {  // by rounding
+    if (x[direction] >= length) {  // possible by rounding
       x[direction] = 0;
       ++periods;
     }
@@ -95,7 +95,7 @@ void place(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t g, s
   if (!from.angular_velocity.empty())
     frame.angular_velocity[to] = bed.spin(from.angular_velocity[g]);
   if (from.force.empty()) return;
-  // The force that programs write for held grains depends on the order of their computations.
+  // Forces on immobile grains are set to 0: they depend on the order of a program's computations.
   frame.force[to].setZero();
   if (!bed.is_boundary(to)) frame.force[to] = bed.components(from.force[g]);
 }
@@ -105,14 +105,14 @@ void place_grains(const ImportedBed& bed, const ArchiveMoment& moment, Frame<3>&
   const auto& from = moment.grains;
   const auto n = bed.grains.size();
   const auto refuse_others = [&](const std::string& what) {
-    throw OtherGrains(fmt::format("{}: {}; not all moments have the grains of the first one",
-                                  moment.place, what));
+    throw OtherGrains(
+        fmt::format("{}: {}; not all frames have the grains of the first one", moment.place, what));
   };
   if (!bed.grains_come_and_go && from.size() != n)
-    refuse_others(fmt::format("{} grains, but {} in the first moment", from.size(), n));
+    refuse_others(fmt::format("{} grains, but {} in the first frame", from.size(), n));
   if (bed.counts_periods && from.size() > 0 && !from.counts_periods())
     throw FormatError(fmt::format(
-        "{}: moments before tell how often grains have crossed the periods, and this one "
+        "{}: earlier frames state how often grains have crossed the periodic cell, and this one "
         "does not; import them separately, with --begin and --end",
         moment.place));
   if (from.velocity.empty() && from.size() > 0)
@@ -126,7 +126,7 @@ void place_grains(const ImportedBed& bed, const ArchiveMoment& moment, Frame<3>&
   std::vector<bool> placed(n);
   for (std::size_t g = 0; g < from.size(); ++g) {
     const auto found = bed.rows.find(from.id[g]);
-    if (found < 0) refuse_others(fmt::format("grain {} is not in the first moment", from.id[g]));
+    if (found < 0) refuse_others(fmt::format("grain {} is not in the first frame", from.id[g]));
     if (placed[row(found)])
       throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, from.id[g]));
     placed[row(found)] = true;

@@ -18,7 +18,7 @@ constexpr const char* place_name = "import_part";
 
 std::string remedy(const OutputPart& part)
 {
-  return fmt::format("make it with this command and --part {} in place of --join", part.text());
+  return fmt::format("write it with this command and --part {} in place of --join", part.text());
 }
 
 std::string existing(const std::string& output, const OutputPart& part)
@@ -44,7 +44,7 @@ std::vector<Observable> import_observables(bool of_part)
   return all;
 }
 
-/// The values of a part are NaN where there is no residual, or no late damping.
+/// The additional values of a part are NaN if there is no residual, or no late damping.
 std::vector<double> import_values(const MomentRecord& record, bool of_part)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -86,7 +86,7 @@ ImportPart::ImportPart(const std::string& output, const OutputPart& part)
   if (place_.part.number != part.number || place_.part.count != part.count)
     fail(fmt::format("is part {}, not {}", place_.part.text(), part.text()));
   if (!run_.closed() || place_.end < place_.begin || run_.size() != place_.end - place_.begin)
-    fail("does not hold all its moments");
+    fail("does not contain all its frames");
   for (const auto& observable : import_observables(true)) {
     if (!run_.has_observable(observable.name)) fail("is not a part of an import by this program");
     values_.push_back(run_.observable(observable.name));

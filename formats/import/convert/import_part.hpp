@@ -12,51 +12,51 @@
 #include <string>
 #include <vector>
 
-/// An import by several processes: each writes a part, a trajectory of the moments of its range that
-/// also holds what the whole needs to know of each moment and of the archive. Joined, parts give the
-/// bytes of an import by one process.
+/// Import by several processes (--part, --join). Each process writes a part: a trajectory of a
+/// range of the archive's frames, with additional data for the final checks and the report. The
+/// joined file equals the file of an import by one process, byte for byte.
 namespace grseg {
 
-/// A moment's numbers beside its frame: its residual (the late damping in the archive's units), and
-/// the memory of the checks, in SI.
+/// Numbers that describe a frame for the checks: the residuals of the grains' force balances (their
+/// late damping in the archive's units), and the sums that the checks accumulate, in SI.
 struct MomentRecord {
   std::optional<Residual> residual;
   CheckMoment moment;
 };
 
-/// The observables of an imported run, and their values. A part has a few more behind them.
+/// The observables of an imported run, and their values. A part has additional ones at the end.
 std::vector<Observable> import_observables(bool of_part);
 std::vector<double> import_values(const MomentRecord& record, bool of_part);
 
-/// Where a part stands in its archive.
+/// Position of a part in its archive.
 struct PartPlace {
   OutputPart part;
-  std::size_t begin = 0, end = 0, moments = 0;  // moments [begin, end) of `moments` in the archive
+  std::size_t begin = 0, end = 0, moments = 0;  // frames [begin, end) of `moments` in the archive
 
-  /// Says it, and what of the report an import by one process says at its end.
+  /// Parameters of the part's file: this position, and the columns and remarks of the report.
   Parameters parameters(const ImportReport& report) const;
 };
 
-/// The file of a part, open.
+/// The file of a part, open for reading.
 class ImportPart {
  public:
-  /// UsageError with the remedy where it is missing.
+  /// Opens the file of a part. Throws UsageError with the remedy if it is missing.
   ImportPart(const std::string& output, const OutputPart& part);
 
   const TrajectoryReader& run() const { return run_; }
   const PartPlace& place() const { return place_; }
   MomentRecord record(std::size_t frame) const;
-  /// Fills in what the report of the whole import says at its end.
+  /// Fills in the columns and remarks of the report, as they are at the end of this part.
   void add_to(ImportReport& report) const;
-  /// The description of the whole run.
+  /// Description of the whole run, without the parameters of the part.
   RunDescription description() const;
-  /// FormatError naming the file and what to do.
+  /// Throws FormatError naming the file, the reason `why` and the remedy.
   [[noreturn]] void fail(const std::string& why) const;
 
  private:
   TrajectoryReader run_;
   PartPlace place_;
-  std::vector<std::vector<double>> values_;  // of import_observables()
+  std::vector<std::vector<double>> values_;  // values by frame, for each of import_observables()
 };
 
 }  // namespace grseg

@@ -34,9 +34,9 @@ std::int32_t RowsById::find(std::int64_t id) const
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr auto largest_id = std::numeric_limits<std::int32_t>::max();  // in a trajectory
+constexpr auto largest_id = std::numeric_limits<std::int32_t>::max();  // limit of trajectory files
 
-/// Where walls bound the flow and nothing is said of base grains, there are none.
+/// Settings of species, without base grains if the flow has walls and nothing names base grains.
 SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
                               SpeciesSettings settings)
 {
@@ -55,6 +55,7 @@ ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
       gravity(facts.orientation.gravity),
       step(facts.step),
       has_force(!first.grains.force.empty()),
+      has_angular_velocity(!first.grains.angular_velocity.empty()),
       counts_periods(first.grains.counts_periods()),
       grains_come_and_go(come_and_go)
 {
@@ -89,7 +90,7 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
 {
   const auto& from = first.grains;
   if (from.size() == 0)
-    throw FormatError(fmt::format("{}: the first moment has no grains", first.place));
+    throw FormatError(fmt::format("{}: the first frame has no grains", first.place));
   for (std::size_t g = 0; g < from.size(); ++g) {
     if (from.id[g] < 0)
       throw FormatError(fmt::format("{}: id {} is negative", first.place, from.id[g]));
@@ -149,7 +150,7 @@ void ImportedBed::make_box(const ArchiveMoment& first)
     (period.direction == 0 ? box.periodic_x : box.periodic_z) = true;
 }
 
-/// Length of the cell along x or z, or, where this is none of the archive's axes, of the bed.
+/// Length of the cell along x or z; or of the bed, if the direction is not an axis of the archive.
 double ImportedBed::make_length(const ArchiveMoment& first, int direction)
 {
   const auto axis = axes.axis_of(direction);
@@ -182,7 +183,7 @@ double ImportedBed::make_length(const ArchiveMoment& first, int direction)
   return high - low;
 }
 
-/// Periods along x and across the flow are all that there may be.
+/// Throws UsageError if the cell is periodic in another direction than x and z.
 void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
 {
   const auto across = axes.axis_of(2), along = axes.axis_of(0), normal = axes.axis_of(1);
@@ -196,8 +197,8 @@ void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
   }
 }
 
-/// The highest of the boundary grains, or, where there are none, of the walls, below the middle of
-/// the others.
+/// Sets y = 0 at the highest boundary grain below the mean height of the mobile grains, or at the
+/// highest wall there if there are no boundary grains. A number in `text` is the height itself.
 void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& text)
 {
   if (parse_finite(text, origin)) return;

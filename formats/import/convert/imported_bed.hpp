@@ -11,67 +11,68 @@
 
 namespace grseg {
 
-/// Rows of the trajectory by ids of the archive.
+/// Map from the archive's id of a grain to its row in the trajectory.
 class RowsById {
  public:
   RowsById() = default;
   explicit RowsById(std::vector<std::int64_t> sorted_ids);
-  /// -1 where no grain has this id.
+  /// The row of the grain with this id; -1 if there is none.
   std::int32_t find(std::int64_t id) const;
 
  private:
   std::vector<std::int64_t> ids_;
-  std::vector<std::int32_t> dense_;  // rows by id - first id, where ids are close together
+  std::vector<std::int32_t> dense_;  // row by (id - first id); empty if ids have large gaps
 };
 
-/// Along x or z the cell is periodic.
+/// A periodic direction of the cell, x or z of the flow.
 struct Period {
   int direction = 0;    // 0: x, 2: z
-  double length = 0;    // in the archive's units
-  int axis = 0;         // of the archive
-  bool forward = true;  // along it; otherwise against it
+  double length = 0;    // length of the period, in the archive's units
+  int axis = 0;         // number of the archive's axis that is parallel to the direction
+  bool forward = true;  // true: axis and direction point the same way; false: opposite ways
 };
 
-/// The common properties of all frames of an imported run: grains, cell and axes, found from a
-/// moment with all grains (the first of the archive, or a Roster's), in the archive's units and the
-/// axes of the flow. Rows are grains by increasing id.
+/// Properties that all frames of an imported run share: grains, cell and axes, in the archive's
+/// units and the axes of the flow. They follow from a frame with all grains: the first of the
+/// archive, or the artificial one of a Roster (scan.hpp). Rows are in order of increasing id.
 struct ImportedBed {
-  /// UsageError where the command line does not fit the grains, FormatError where the grains are
-  /// impossible.
+  /// Throws UsageError if the command line contradicts the grains, FormatError if the grains have
+  /// impossible values.
   ImportedBed(const ArchiveMoment& all, const RunFacts& facts, const ImportSettings& settings,
               bool come_and_go = false);
 
   bool is_boundary(std::size_t row) const { return grains.species[row] == Species::boundary; }
-  /// A vector of the archive in the axes of the flow; in two dimensions the part in its plane.
+  /// Components of a vector in the axes of the flow; in two dimensions z is 0.
   Vec3 components(const Vec3& vector) const;
   Vec3 spin(const Vec3& angular_velocity) const;
-  /// Makes a moment of the archive a frame of a trajectory (formats/README.md), in the archive's
-  /// units. Every moment must have all grains, unless they come and go: then a grain that a moment
-  /// lacks is absent in its frame. Grain i of a contact is mobile; contacts between two boundary
-  /// grains are left out; the order of contacts is kept. FormatError naming the moment where grains
-  /// or contacts are impossible, or lack components in three dimensions; OtherGrains where a moment
-  /// has not all grains, or others.
+  /// Converts a frame of the archive to a frame of a trajectory (formats/README.md), in the
+  /// archive's units. Every frame must have all grains, unless `grains_come_and_go`: then missing
+  /// grains are marked as absent. Grain i of a contact is mobile. Contacts of two boundary grains
+  /// are left out; the others stay in their order. Throws FormatError naming the frame if grains or
+  /// contacts have impossible values, or lack components in three dimensions. Throws OtherGrains if
+  /// the frame has fewer or other grains.
   void build(const ArchiveMoment& moment, Frame<3>& frame) const;
 
   Axes axes;
   Vec3 gravity;
-  double step;     // of the integration
-  bool has_force;  // on grains
-  /// True where images of frames come from the archive. Where it does not tell how often grains
-  /// have crossed a period, images are 0 for positions within the cell.
+  double step;     // length of an integration step, in the archive's unit of time
+  bool has_force;  // true: the archive has the total force on each grain
+  bool has_angular_velocity;
+  /// True if the archive states how often grains have crossed the periodic cell. Otherwise the
+  /// images of frames are 0 for positions within the cell.
   bool counts_periods;
   bool grains_come_and_go;
   Grains grains;
   Box box;
   SpeciesFound species;
   RowsById rows;
-  ArchiveGrains known;           // by row, what a grain keeps: id, radius, mass, type, fixed
-  bool has_new_ids = false;      // 1, 2, 3 in order, as the archive's ids do not fit a trajectory
-  std::string cell;              // how long it is along x and z and who says so, a line each
-  double origin = 0;             // height in the archive that is y = 0
-  Vec3 shift = Vec3::Zero();     // to be added to components of positions
-  std::vector<Period> periods;   // of the cell: none, along x, along z, or along both
-  std::vector<WallPlane> walls;  // of --wall
+  ArchiveGrains known;           // constant properties by row: id, radius, mass, type, fixed
+  bool has_new_ids = false;      // true: grains are numbered 1, 2, 3, as the ids exceed 2^31
+  std::string cell;              // text: length along x and z and its source, a line each
+  double origin = 0;             // height in the archive that becomes y = 0
+  Vec3 shift = Vec3::Zero();     // vector to add to positions (components in the axes of the flow)
+  std::vector<Period> periods;   // periodic directions of the cell: none, x, z, or both
+  std::vector<WallPlane> walls;  // walls given by --wall
 
  private:
   void make_grains(const ArchiveMoment& first, const RunFacts& facts,
@@ -82,7 +83,7 @@ struct ImportedBed {
   void find_origin(const ArchiveMoment& first, const std::string& text);
 };
 
-/// The option that puts y = 0 at the lowest point of the grains.
+/// Text of the option --origin that sets y = 0 at the lowest point of the grains.
 std::string proposed_origin(const ArchiveGrains& grains, const Axes& axes);
 
 }  // namespace grseg

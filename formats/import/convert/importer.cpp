@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* program = "grseg-import";
 
-/// Mean of the smallest and the largest diameter of a species; 0 where it has no grains.
+/// Mean of the smallest and the largest diameter of a species; 0 if it has no grains.
 double mid_range(const Grains& grains, Species species)
 {
   Range diameters;
@@ -40,8 +40,7 @@ double mid_range(const Grains& grains, Species species)
   return diameters.high > 0 ? diameters.middle() : 0;
 }
 
-/// The species with nominal diameters in m. Of small and large, one without grains gets the
-/// diameter of the other.
+/// Adds nominal diameters, m, to the species. Of two, one without grains gets the other's diameter.
 SpeciesList with_diameters(SpeciesList list, const Grains& grains, const Units& units)
 {
   for (std::size_t k = 0; k < list.size(); ++k)
@@ -58,8 +57,8 @@ const char* source(bool of_the_archive)
   return of_the_archive ? "archive" : "command line";
 }
 
-/// Adds the parameters that check_context() alone reads: which facts are the archive's own, its
-/// axes, the types of species, tolerance, waivers.
+/// Adds the parameters that only check_context() reads: the source of each fact (archive or command
+/// line), the archive's axes, the types of species, tolerance, waivers (--accept-residual).
 void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
                           const ImportSettings& settings)
 {
@@ -89,7 +88,7 @@ void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
         fmt::format("{}\n{}", species.small.value_or(""), species.large.value_or(""));
 }
 
-/// The description of the run, in SI, before its first frame.
+/// Description of the run, in SI, as far as it is known before its first frame.
 RunDescription describe(const VerifiedFrames& frames, const ImportSettings& settings,
                         const std::string& command_line)
 {
@@ -182,8 +181,8 @@ Vec3 gravity_in_archive(const RunFacts& facts)
                   offer ? "; --accept-residual balance=R accepts residuals up to R" : ""));
 }
 
-/// Sentences on everything left out of the archive or changed: complete once it has been read to
-/// its end.
+/// Sentences about all data of the archive that are left out or changed. Complete once the archive
+/// has been read to its end.
 std::vector<std::string> remarks_of(const VerifiedFrames& frames)
 {
   auto remarks = frames.scanned().remarks();
@@ -193,13 +192,13 @@ std::vector<std::string> remarks_of(const VerifiedFrames& frames)
         "archive's ids");
   if (frames.walls()) remarks.push_back(frames.walls()->remark());
   if (!frames.bed().has_force)
-    remarks.emplace_back("the archive has no forces on grains, and the trajectory none");
-  if (frames.scanned().all_grains().grains.angular_velocity.empty())
+    remarks.emplace_back("the archive has no forces on grains; the trajectory has none either");
+  if (!frames.bed().has_angular_velocity)
     remarks.emplace_back("the archive has no angular velocities; they are written as 0");
   return remarks;
 }
 
-/// A frame in SI at this time.
+/// Counts a frame in the report; `time` in s.
 void count(ImportReport& report, double time, std::size_t contacts)
 {
   if (report.frames == 0) report.first_time = time;
@@ -208,7 +207,7 @@ void count(ImportReport& report, double time, std::size_t contacts)
   report.contacts += contacts;
 }
 
-/// The part of a frame in the plane of the flow.
+/// Copies the components of a frame in the plane of the flow.
 void flatten(const Frame<3>& from, Frame<2>& to)
 {
   const auto take = [](const std::vector<Vec3>& vectors, std::vector<Vec2>& flat) {
@@ -232,8 +231,8 @@ void flatten(const Frame<3>& from, Frame<2>& to)
   take(contacts.branch, to.contacts.branch);
 }
 
-/// Verifies and writes all frames to the file `path`. In a part each frame is judged alone; checks
-/// of all moments are made when parts are joined.
+/// Verifies all frames and writes them to the file `path`. For a part (import_part.hpp) each frame
+/// is verified by itself; the checks over all frames follow when parts are joined.
 ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
                      const ImportSettings& settings, const std::string& command_line,
                      const std::string& path)
@@ -245,7 +244,7 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
   if (part) frames.skip(part->begin);
   const std::size_t moments = part ? part->end - part->begin : 0;
   TrajectoryWriter writer(path, run, settings.storage);
-  ProgressBar progress(program, {.things = "moments", .total = static_cast<double>(moments)},
+  ProgressBar progress(program, {.things = "frames", .total = static_cast<double>(moments)},
                        settings.quiet);
   Frame<3> frame;
   Frame<2> flat;
@@ -265,7 +264,10 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
   report.remarks = remarks_of(frames);
   if (part) {
     if (report.frames != moments || (part->part.number == part->part.count && frames.next(frame)))
-      throw RunError(fmt::format("{}: the archive changes while it is read", frames.place()));
+      throw RunError(
+          fmt::format("{}: the archive has changed during the "
+                      "import; import it when it is complete",
+                      frames.place()));
     writer.add_parameters(part->parameters(report));
   } else {
     writer.add_parameters(judgement.close(report, settings.strict));
@@ -276,7 +278,7 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
   return report;
 }
 
-/// Begins again with a scan of all moments where a moment has other grains than the scanned ones.
+/// Imports without parts. If a frame has other grains, starts again with a scan of all frames.
 ImportReport import_whole(const ImportSettings& settings, const std::string& command_line)
 {
   Output output(settings.output, settings.overwrite, inputs_of(settings.files));
@@ -294,7 +296,7 @@ ImportReport import_whole(const ImportSettings& settings, const std::string& com
   return report;
 }
 
-/// Each part scans all moments first: how many there are, and whether grains come and go.
+/// Imports a part. Scans all frames first, for their number and grains that enter or leave.
 ImportReport import_part(const ImportSettings& settings, const std::string& command_line)
 {
   const auto& part = *settings.parts.part;
@@ -312,13 +314,13 @@ ImportReport import_part(const ImportSettings& settings, const std::string& comm
                         output.temporary());
   output.publish();
   report.remarks = {
-      fmt::format("part {}: moments {} to {} of {}; checks of all moments are "
+      fmt::format("part {}: frames {} to {} of {}; checks of all frames are "
                   "made when parts are joined",
                   part.text(), begin + 1, end, roster->moments)};
   return report;
 }
 
-/// FormatError unless the part continues what the parts before it hold.
+/// Throws FormatError unless the part begins at frame `begin`, behind the parts before it.
 void require_next_part(const ImportPart& first, const ImportPart& part, std::size_t begin,
                        const std::string& command_line)
 {
@@ -356,9 +358,9 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
   const auto run = first.description();
   ImportReport report{run.box.dimension, 0, run.grains.size(), 0, 0, 0, run.parameters, {}, {}};
   TrajectoryWriter writer(output.temporary(), run, settings.storage);
-  Judgement judgement(run);
+  Judgement judgement(run, first.run().path());
   ProgressBar progress(program,
-                       {.things = "moments", .total = static_cast<double>(first.place().moments)},
+                       {.things = "frames", .total = static_cast<double>(first.place().moments)},
                        settings.quiet);
   for (std::size_t k = 1; k <= parts; ++k) {
     const ImportPart part(settings.output, {k, parts});
@@ -378,7 +380,7 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
 
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
 {
-  if (settings.output.empty()) scan(settings);  // asks for it
+  if (settings.output.empty()) scan(settings);  // throws the question for the output file
   settings.parts.check(settings.output);
   if (settings.parts.part) return import_part(settings, command_line);
   if (settings.parts.join > 0) return join_parts(settings, command_line);
@@ -407,8 +409,8 @@ std::string to_text(const ImportReport& report)
   if (const auto unexplained = number("import_residual_unexplained")) {
     const auto& late = parameters.numbers.at("import_late_damping");
     text += fmt::format(
-        "of the largest, {:.3g} is not explained by damping of {:.4g} 1/s (normal) and {:.4g} 1/s "
-        "(tangential) half a step late\n",
+        "largest residual that damping half a step late does not explain: {:.3g}, "
+        "with damping of {:.4g} 1/s (normal) and {:.4g} 1/s (tangential)\n",
         *unexplained, late[0], late[1]);
   }
   if (largest)

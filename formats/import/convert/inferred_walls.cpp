@@ -12,9 +12,9 @@
 namespace grseg {
 namespace {
 
-/// Numbers of text and of grains held in single precision are off by less, over their size.
+/// Relative error of coordinates written as text or in single precision, at most.
 constexpr double rounding = 1e-5;
-/// Contacts of a grain with the same wall have branches that differ by less, over its radius.
+/// Largest difference, over the radius, of the branches of two contacts that count as the same.
 constexpr double same_branch = 0.01;
 
 }  // namespace
@@ -25,7 +25,7 @@ InferredWalls::InferredWalls(const ImportedBed& bed) : bed_(bed), contacts_of_(b
     for (const auto& period : bed_.periods)
       if (period.axis == wall.axis)
         throw UsageError(fmt::format(
-            "--wall {} ({}): the cell is periodic along {}, where there can be no wall across; "
+            "--wall {} ({}): the cell is periodic along {}, so no wall can cross this direction; "
             "leave it out",
             wall.name, wall.place(), "xyz"[wall.axis]));
     const Vec3 direction = bed_.axes.components(Vec3::Unit(wall.axis));
@@ -51,7 +51,8 @@ std::vector<Vec3> InferredWalls::missing_forces(const Frame<3>& frame) const
   return missing;
 }
 
-/// Where rounding hides whether they touch, what is missing has to push.
+/// The walls that a grain touches. If rounding leaves it open whether they touch, the missing force
+/// decides: it must push the grain away from the wall.
 auto InferredWalls::touches(const Frame<3>& frame, std::size_t grain, const Vec3& missing) const
     -> std::vector<Touch>
 {
@@ -93,7 +94,7 @@ void InferredWalls::add(Frame<3>& frame, std::size_t grain, std::vector<Touch> t
 {
   const auto push = [&](const Touch& touch) { return missing.dot(touch.normal); };
   if (touches.size() > 1) ++at_two_;
-  // A wall that would pull gets nothing as long as another pushes.
+  // A wall that would pull exerts no force if another wall pushes.
   std::sort(touches.begin(), touches.end(),
             [&](const Touch& a, const Touch& b) { return push(a) > push(b); });
   while (touches.size() > 1 && !(push(touches.back()) > 0)) touches.pop_back();
@@ -108,7 +109,7 @@ void InferredWalls::add(Frame<3>& frame, std::size_t grain, std::vector<Touch> t
     append(frame, grain, touch, push(touch) * touch.normal + push(touch) / pushes * rest);
 }
 
-/// The largest size of a contact force or weight in the frame.
+/// The largest magnitude of a contact force or weight in the frame.
 double InferredWalls::largest_force(const Frame<3>& frame) const
 {
   double largest = 0;
@@ -126,7 +127,7 @@ void InferredWalls::add_to(Frame<3>& frame)
         "--wall: the archive has no forces on grains, from which wall forces could be inferred; "
         "dump them (fx fy fz), or the contacts with walls themselves (--wall-contacts)");
   auto& contacts = frame.contacts;
-  std::multimap<std::size_t, std::size_t> already;  // grains, and contacts that the frame has
+  std::multimap<std::size_t, std::size_t> already;  // grain -> the archive's contacts with walls
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts.j[c] >= 0) continue;
     contacts.j[c] -= static_cast<std::int32_t>(planes_.size());
@@ -160,8 +161,8 @@ void InferredWalls::add_to(Frame<3>& frame)
 std::string InferredWalls::remark() const
 {
   return fmt::format(
-      "forces of {} are inferred from the balance of the grains that touch them, so that this balance "
-      "checks nothing",
+      "forces of {} are inferred from the force balance of the grains "
+      "that touch them, so this balance checks nothing",
       list_of(bed_.walls));
 }
 
@@ -169,21 +170,21 @@ std::vector<std::string> InferredWalls::counts() const
 {
   std::vector<std::string> remarks;
   if (contacts_ > 0)
-    remarks.push_back(fmt::format("{} to {} grains touch these walls at a moment", fewest_, most_));
+    remarks.push_back(fmt::format("{} to {} grains touch these walls in a frame", fewest_, most_));
   if (at_two_ > 0)
     remarks.push_back(fmt::format(
-        "{1} times a grain touches more than one of these walls ({0} contacts in all): the friction "
-        "of each wall is not known and is shared in proportion to the normal forces",
+        "{1} times a grain touches more than one of these walls ({0} contacts in all): the "
+        "friction of each wall is unknown and is divided in proportion to the normal forces",
         contacts_, at_two_));
   if (pulling_ > 0)
     remarks.push_back(fmt::format(
-        "{} of these {} contacts pull, the most by {:.2g} of the largest force of its moment",
+        "{} of these {} contacts pull, the strongest by {:.2g} of the largest force of its frame",
         pulling_, contacts_, largest_pull_));
   for (std::size_t w = 0; w < bed_.walls.size(); ++w)
     if (contacts_of_[w] == 0)
       remarks.push_back(
           fmt::format("no grain ever touches the wall {} ({}), and the archive has no "
-                      "contacts with it either: is it there?",
+                      "contacts with it either: is its position correct?",
                       bed_.walls[w].name, bed_.walls[w].place()));
   return remarks;
 }

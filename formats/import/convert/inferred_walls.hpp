@@ -11,41 +11,41 @@
 
 namespace grseg {
 
-/// Contacts with plane walls of which the archive has no rows: a grain touches a wall where its
-/// centre is nearer to the plane than its radius, and what its other contacts and its weight leave
-/// of the force on it, the wall exerts:
+/// Contacts with plane walls (--wall) that the archive does not list. A grain touches a wall if its
+/// centre is nearer to the plane than its radius. The force of the wall follows from Newton's law:
 ///   force of the wall = force on the grain - m g - sum of its contact forces.
-/// Errors of all these forces add up in it, damping half a step late among them, and the grain's
-/// balance is no check any more. A grain that touches two walls shares this force out: along each
-/// normal it is that wall's, the rest is shared in proportion; a wall that would pull gets nothing.
+/// The errors of all these forces add up in it, including damping half a step late, and the grain's
+/// force balance can no longer be checked. If a grain touches two walls, each wall exerts the
+/// component along its normal; the rest is divided in proportion. A wall that would pull exerts no
+/// force.
 class InferredWalls {
  public:
-  /// In the archive's units. UsageError where a wall lies across the plane of a flow in two
-  /// dimensions or across a period.
+  /// Works in the archive's units. Throws UsageError if a wall is parallel to the plane of a flow
+  /// in two dimensions, or normal to a periodic direction.
   explicit InferredWalls(const ImportedBed& bed);
 
-  /// Appends these contacts to the frame. The walls here have the first numbers; wall numbers of
-  /// contacts that the frame already has move up by as many. A wall that the grain already has a
-  /// contact with is left out. UsageError where grains have no forces.
+  /// Appends the inferred contacts to the frame. Walls of --wall get the first wall numbers; the
+  /// numbers of the archive's own walls increase. A wall is skipped for a grain that already has a
+  /// contact there. Throws UsageError if the archive has no forces on grains.
   void add_to(Frame<3>& frame);
 
-  /// By row, of the last frame: 1 where the balance of the grain went into a wall's force.
+  /// Flags by row, for the last frame: 1 if the grain's balance was used to infer a wall's force.
   const std::vector<std::uint8_t>& inferred() const { return inferred_; }
-  /// A sentence on the walls and their contacts, equal in every part of an archive.
+  /// A sentence about the inferred walls, equal for all parts of an import (import_part.hpp).
   std::string remark() const;
-  /// How often it was done so far, a sentence each.
+  /// Sentences with the number of inferred contacts so far.
   std::vector<std::string> counts() const;
 
  private:
   struct Plane {
-    Vec3 direction;   // unit
-    double position;  // of the plane along it, in the flow's axes
+    Vec3 direction;   // unit vector normal to the plane
+    double position;  // coordinate of the plane along `direction`, in the axes of the flow
   };
-  /// A grain at a wall.
+  /// Geometry of a contact of a grain with a wall.
   struct Touch {
     std::size_t wall;
-    Vec3 branch;  // from the plane to the centre
-    Vec3 normal;  // towards the grain
+    Vec3 branch;  // vector from the plane to the grain's centre
+    Vec3 normal;  // unit normal of the plane, towards the grain
   };
   double largest_force(const Frame<3>& frame) const;
   std::vector<Vec3> missing_forces(const Frame<3>& frame) const;
@@ -56,10 +56,10 @@ class InferredWalls {
   const ImportedBed& bed_;
   std::vector<Plane> planes_;
   std::vector<std::uint8_t> inferred_;
-  std::vector<std::size_t> contacts_of_;  // of each wall, in all frames so far
+  std::vector<std::size_t> contacts_of_;  // number of contacts by wall, in all frames so far
   std::size_t frames_ = 0, fewest_ = 0, most_ = 0, contacts_ = 0, at_two_ = 0, pulling_ = 0;
-  double largest_pull_ = 0;   // over the largest force of its frame
-  double largest_force_ = 0;  // of this frame
+  double largest_pull_ = 0;   // largest attractive force / largest force of its frame
+  double largest_force_ = 0;  // largest contact force or weight of the current frame
 };
 
 }  // namespace grseg

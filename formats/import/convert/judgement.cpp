@@ -12,7 +12,7 @@
 namespace grseg {
 namespace {
 
-/// One sentence of what has failed; nothing where nothing has.
+/// One sentence that lists all failed checks; "" if none has failed.
 std::string failures(const std::vector<Finding>& findings)
 {
   std::vector<std::string> all, names;
@@ -23,14 +23,15 @@ std::string failures(const std::vector<Finding>& findings)
         fmt::format("--accept-residual {}={:.2g}", finding.check, 1.05 * finding.measure));
   }
   if (all.empty()) return "";
-  return fmt::format("{} ({} would import it all the same)", fmt::join(all, "; "),
+  return fmt::format("{} ({} would import the run in spite of this)", fmt::join(all, "; "),
                      fmt::join(names, " "));
 }
 
 }  // namespace
 
-Judgement::Judgement(const RunDescription& run)
-    : run_(run), context_(check_context(run.grains, species_of(run), run.parameters, run.has_force))
+Judgement::Judgement(const RunDescription& run, const std::string& file)
+    : run_(run),
+      context_(check_context(run.grains, species_of(run), run.parameters, run.has_force, file))
 {
   const auto sizes = context_.waivers.applied_to(judge_sizes(context_));
   if (const auto text = failures({sizes}); !text.empty()) throw CheckError(text);
@@ -77,7 +78,7 @@ Parameters Judgement::close(ImportReport& report, bool strict) const
       strict && !all.empty())
     throw CheckError(fmt::format("undecided, and --strict is given: {}", all));
   Parameters last;
-  // The first moment may have had no contacts to tell.
+  // The first frame may have had no contacts, so the columns are known only at the end.
   if (run_.grains_come_and_go)
     last.texts["import_columns"] = report.parameters.text("import_columns");
   add_residuals_to(last);

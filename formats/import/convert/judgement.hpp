@@ -12,21 +12,21 @@
 
 namespace grseg {
 
-/// Judges an import from the records of its moments in order: after 1, 2, 4, 8 ... of them, so that a
-/// wrong setting is refused early, and at the end.
+/// Applies the checks to the records of an import's frames, in order: after 1, 2, 4, 8 ... frames,
+/// so that a wrong setting is refused early, and at the end.
 class Judgement {
  public:
-  /// Judges the run that is written, which it refers to; CheckError where its species are already
-  /// wrong.
-  explicit Judgement(const RunDescription& run);
+  /// Stores a reference to the run that is written. Throws CheckError if its species are wrong,
+  /// FormatError naming `file` if this file, which the run was read from, lacks parameters.
+  explicit Judgement(const RunDescription& run, const std::string& file = "");
 
-  /// Adds one moment, in SI. CheckError naming `place` where a check fails.
+  /// Adds one frame, in SI. Throws CheckError naming `place` if a check fails.
   void add(const MomentRecord& record, const std::string& place);
-  /// Fills in what the report says of all moments; parameters that say it, too. CheckError where a
-  /// check fails, and with `strict` where one is undecided.
+  /// Fills in the report's results over all frames, and returns them as parameters. Throws
+  /// CheckError if a check fails or, with `strict`, is undecided.
   Parameters close(ImportReport& report, bool strict) const;
-  /// "; gravity: the archive suggests ..." of the checks over moments that fail with `moment`, too:
-  /// what may explain what is wrong with this one.
+  /// Messages of the checks over all frames that fail once `moment` is included: a possible cause
+  /// of this frame's error. Example: "; gravity: the archive suggests ...".
   std::string also_failed(const CheckMoment& moment) const;
 
  private:

@@ -22,13 +22,13 @@ std::string in_words(const ArchiveMoment& moment)
   return fmt::format("t = {:g} (step {})", *moment.time, *moment.step);
 }
 
-/// The step, or the time where there is none.
+/// The step of a frame, or its time if it has no step.
 double time_of(const ArchiveMoment& moment)
 {
   return moment.step ? static_cast<double>(*moment.step) : *moment.time;
 }
 
-/// The times of all moments, as they follow in the archive.
+/// The times (or steps) of all frames, in the order of the archive.
 std::vector<double> times_of(Archive& archive)
 {
   std::vector<double> times;
@@ -39,12 +39,12 @@ std::vector<double> times_of(Archive& archive)
       times.push_back(time_of(moment));
     }
   } catch (const TruncatedArchive&) {
-    // Told when it is imported.
+    // The import itself reports this error.
   }
   return times;
 }
 
-/// A digest of ids and positions, independent of the order of the rows.
+/// Digest (hash) of ids and positions, independent of the order of the rows.
 std::uint64_t digest_of(const ArchiveGrains& grains)
 {
   std::uint64_t sum = 0;
@@ -80,15 +80,15 @@ void MomentRange::add(const char* option, const std::optional<std::string>& text
                   option, *text));
 }
 
-/// -1, 0 or 1: the moment comes before the bound, at it, or after it.
+/// Position of a frame relative to a bound: -1 before, 0 at, 1 after the bound.
 int MomentRange::compare(const ArchiveMoment& moment, const Bound& bound,
                          const std::optional<double>& step)
 {
   const bool known = bound.time ? moment.time.has_value() : moment.step.has_value();
   if (!known && !(step && *step > 0))
     throw UsageError(fmt::format(
-        "{} is a {}, but the archive has {} only, and the length of a time step is not known: pass "
-        "it with --step, or give a {}",
+        "{} is a {}, but the archive has {} only, and the length of a time step is unknown: pass "
+        "it with --step, or pass a {}",
         bound.option, bound.time ? "time" : "step", bound.time ? "steps" : "times",
         bound.time ? "step, as in step:100000" : "time"));
   if (!bound.time) {
@@ -116,8 +116,8 @@ MomentRange::Side MomentRange::side(const ArchiveMoment& moment, const std::opti
 
 std::string MomentRange::seen() const
 {
-  return count_ == 1 ? fmt::format("one moment, {}", first_)
-                     : fmt::format("{} moments from {} to {}", count_, first_, last_);
+  return count_ == 1 ? fmt::format("one frame, {}", first_)
+                     : fmt::format("{} frames from {} to {}", count_, first_, last_);
 }
 
 RepeatedMoments::RepeatedMoments(const ImportSettings& settings)
@@ -125,7 +125,7 @@ RepeatedMoments::RepeatedMoments(const ImportSettings& settings)
   if (settings.repeated) which_ = choose(*settings.repeated, "--repeated", repeated_words);
   if (which_ != Repeated::last) return;
   const auto times = times_of(*open_archive(settings.format, settings.files));
-  double earliest = std::numeric_limits<double>::infinity();  // of those behind
+  double earliest = std::numeric_limits<double>::infinity();  // time of later frames
   last_ones_.assign(times.size(), false);
   for (auto k = times.size(); k-- > 0;) {
     last_ones_[k] = times[k] < earliest;
@@ -147,7 +147,7 @@ bool RepeatedMoments::counts(const ArchiveMoment& moment)
   return true;
 }
 
-/// False, or UsageError.
+/// Counts a frame that is not later than the previous ones and returns false, or throws UsageError.
 bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
 {
   const auto before = seen_.find(time);
@@ -159,21 +159,23 @@ bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
     ++dropped_;
     return false;
   }
+  const int digits = moment.step ? 17 : 10;  // steps are written exactly
   throw UsageError(fmt::format(
-      "{}: {} {:.10g} comes after {:.10g}{}: if a job began again from an earlier checkpoint, "
-      "--repeated first takes the moments of the earlier job, --repeated last those of the later one",
-      moment.place, moment.step ? "step" : "time", time, seen_.rbegin()->first,
-      before == seen_.end() ? "" : ", and its grains are elsewhere than the first time"));
+      "{}: {} {:.{}g} comes after {:.{}g}{}: if a job began again from an earlier checkpoint, "
+      "--repeated first reads the frames of the earlier job, "
+      "--repeated last the frames of the later job",
+      moment.place, moment.step ? "step" : "time", time, digits, seen_.rbegin()->first, digits,
+      before == seen_.end() ? "" : ", and its grains are not where they were the first time"));
 }
 
 std::string RepeatedMoments::remark() const
 {
   if (same_ > 0 && dropped_ == 0)
-    return fmt::format("{} {} twice with equal grains; each counts once", counted(same_, "moment"),
-                       same_ == 1 ? "comes" : "come");
+    return fmt::format("{} {} twice with equal grains; each is imported once",
+                       counted(same_, "frame"), same_ == 1 ? "comes" : "come");
   if (dropped_ > 0)
-    return fmt::format("{} of a job are left out, which another job repeats",
-                       counted(same_ + dropped_, "moment"));
+    return fmt::format("{} of a job are left out, because another job repeats them",
+                       counted(same_ + dropped_, "frame"));
   return "";
 }
 
@@ -206,15 +208,15 @@ std::vector<std::string> Moments::remarks() const
 {
   std::vector<std::string> remarks;
   if (!range_.text().empty())
-    remarks.push_back(fmt::format("only moments in the range {} are imported", range_.text()));
+    remarks.push_back(fmt::format("only frames in the range {} are imported", range_.text()));
   if (dropped_ > 0)
-    remarks.push_back(fmt::format("{} incomplete moment{} left out (--drop-incomplete)", dropped_,
+    remarks.push_back(fmt::format("{} incomplete frame{} left out (--drop-incomplete)", dropped_,
                                   dropped_ == 1 ? " is" : "s are"));
   if (auto repeated = repeated_.remark(); !repeated.empty()) remarks.push_back(std::move(repeated));
   return remarks;
 }
 
-/// The number of a moment times --frame-interval.
+/// Sets the time of a frame to its number times --frame-interval.
 void Moments::set_time(ArchiveMoment& moment) const
 {
   if (moment.time)
@@ -234,12 +236,12 @@ bool Moments::advance(ArchiveMoment& moment, Read read)
     if (!repeated_.counts(moment)) continue;
     const auto side = range_.side(moment, step_ ? step_ : archive_->facts().step);
     if (side == MomentRange::Side::within) return found_ = true;
-    // Without a moment in the range it is read to its end, to say what it has.
+    // If no frame is in the range, the archive is read to its end, for the text of the error.
     ended_ = found_ && side == MomentRange::Side::after;
   }
   if (!found_ && range_.any_seen())
-    throw UsageError(fmt::format("no moment lies in the range {}: the archive has {}",
-                                 range_.text(), range_.seen()));
+    throw UsageError(fmt::format("no frame lies in the range {}: the archive has {}", range_.text(),
+                                 range_.seen()));
   return false;
 }
 

@@ -15,21 +15,21 @@
 
 namespace grseg {
 
-/// The moments of an archive that are imported, begin <= t < end, as --begin and --end give them: "12.5",
-/// a time in the archive's units, or "step:100000". Times count as equal to nine digits, so that step
-/// times the length of a step meets a time that was typed.
+/// The range of frames to import, begin <= t < end, from --begin and --end. A bound is a time in
+/// the archive's units ("12.5") or a step ("step:100000"). Times are equal if they agree to nine
+/// digits, because step times length of a step is compared with a time that a user typed.
 class MomentRange {
  public:
-  /// UsageError where a text is not a bound.
+  /// Throws UsageError if a text is not a bound.
   MomentRange(const std::optional<std::string>& begin, const std::optional<std::string>& end);
 
   enum class Side { before, within, after };
-  /// Where a moment lies. `step`, the length of one, is that with which a moment that has only a step
-  /// or only a time is compared with the other. UsageError where it is needed and not known.
+  /// Position of a frame relative to the range. `step` is the length of a time step, which converts
+  /// between steps and times. Throws UsageError if the conversion is needed and `step` is empty.
   Side side(const ArchiveMoment& moment, const std::optional<double>& step);
-  /// A sentence on all moments so far: "12 moments from t = 0 (step 0) to t = 1.1 (step 110000)".
+  /// Text about all frames so far: "12 frames from t = 0 (step 0) to t = 1.1 (step 110000)".
   std::string seen() const;
-  /// "--begin 5 --end 6"
+  /// The options of the range: "--begin 5 --end 6".
   const std::string& text() const { return text_; }
   bool any_seen() const { return count_ > 0; }
 
@@ -37,7 +37,7 @@ class MomentRange {
   struct Bound {
     const char* option;
     bool is_end;
-    std::optional<double> time;  // otherwise
+    std::optional<double> time;  // bound as a time; empty: the bound is `step`
     std::int64_t step = 0;
   };
 
@@ -51,45 +51,44 @@ class MomentRange {
   std::string first_, last_;
 };
 
-/// Picks the moments of an archive that count, in order of time.
+/// Selects frames if an archive has several at the same time (--repeated), in order of time.
 class RepeatedMoments {
  public:
-  /// Reads all moments once where the last ones count.
+  /// Reads the whole archive once if, of repeated frames, the last is to be imported.
   explicit RepeatedMoments(const ImportSettings& settings);
 
-  /// True where this moment, the next one of the archive, counts. UsageError where one comes again
-  /// otherwise than before, and nothing says which counts.
+  /// True if `moment`, the archive's next frame, is to be imported. Throws UsageError if a repeated
+  /// frame differs from the earlier one and --repeated is not given.
   bool counts(const ArchiveMoment& moment);
-  /// How many did not, in a sentence; "" where all did.
+  /// A sentence with the number of frames left out; "" if there are none.
   std::string remark() const;
 
  private:
   bool comes_again(const ArchiveMoment& moment, double time);
 
   Repeated which_ = Repeated::ask;
-  std::vector<bool> last_ones_;           // of the moments in the archive
-  std::size_t next_ = 0;                  // of these
-  std::map<double, std::uint64_t> seen_;  // digests of grains, by time
+  std::vector<bool> last_ones_;           // by frame of the archive: true: import it
+  std::size_t next_ = 0;                  // index of the next frame in last_ones_
+  std::map<double, std::uint64_t> seen_;  // digests (hashes) of the grains, by time
   std::size_t same_ = 0, dropped_ = 0;
 };
 
-/// The moments of an archive between --begin and --end, in order of time. --drop-incomplete leaves out
-/// incomplete ones.
+/// The frames of an archive between --begin and --end, in order of time. With --drop-incomplete,
+/// incomplete frames are left out.
 class Moments {
  public:
   explicit Moments(const ImportSettings& settings);
 
-  /// Reads the next moment; false at the end. UsageError at an end without any moment, where there
-  /// are others outside the range.
+  /// Reads the next frame; false at the end. Throws UsageError if all frames are out of the range.
   bool next(ArchiveMoment& moment) { return advance(moment, &Archive::next); }
-  /// Like `next`, with the grains alone; contacts may be there or not.
+  /// Reads the grains of the next frame; its contacts may be missing.
   bool next_grains(ArchiveMoment& moment)
   {
-    // Contacts, too, may be what is incomplete.
+    // The contacts may be incomplete, too, so they must be read.
     return advance(moment, drop_incomplete_ ? &Archive::next : &Archive::next_grains);
   }
   const Archive& archive() const { return *archive_; }
-  /// Which moments are left out so far, and why, a sentence each.
+  /// Sentences about the frames left out so far, and the reasons.
   std::vector<std::string> remarks() const;
 
  private:
@@ -99,9 +98,9 @@ class Moments {
   void set_time(ArchiveMoment& moment) const;
 
   std::unique_ptr<Archive> archive_;
-  std::optional<double> step_, interval_;  // --step, --frame-interval
+  std::optional<double> step_, interval_;  // values of --step, --frame-interval
   bool drop_incomplete_;
-  int dropped_ = 0;  // moments
+  int dropped_ = 0;  // number of incomplete frames left out
   std::vector<ToldCell> cells_;
   RepeatedMoments repeated_;
   MomentRange range_;

@@ -12,13 +12,13 @@
 namespace grseg {
 namespace {
 
-/// Files that were named without an option, by what they hold for one format.
+/// Files that were named without an option, sorted by their content as one format reads it.
 struct Roles {
   std::vector<std::string> grains, contacts, restart;
-  bool any_grains = false;  // also in files that were named with an option
+  bool any_grains = false;  // true: a file contains grains, also one that was named with an option
 };
 
-/// None where the format does not know one of the files.
+/// Sorts the files for one format; empty if the format does not recognise one of them.
 std::optional<Roles> roles_for(const ArchiveFormat& format, const std::vector<std::string>& unnamed,
                                const std::vector<FileStart>& starts)
 {
@@ -36,7 +36,7 @@ std::optional<Roles> roles_for(const ArchiveFormat& format, const std::vector<st
   return roles;
 }
 
-/// One name stands for many: atoms.*.dump for atoms.100.dump atoms.200.dump.
+/// A pattern that matches all names: atoms.*.dump for atoms.100.dump and atoms.200.dump.
 std::string pattern_of(const std::vector<std::string>& names)
 {
   const auto& first = names.front();
@@ -56,7 +56,7 @@ std::string pattern_of(const std::vector<std::string>& names)
   return first.substr(0, head) + "*" + first.substr(first.size() - tail);
 }
 
-/// As on a command line: the names, or, where there are many, a pattern.
+/// Text for a command line: the names, or a pattern if there are four or more.
 std::string listed(const std::vector<std::string>& names)
 {
   constexpr std::size_t many = 4;
@@ -66,7 +66,7 @@ std::string listed(const std::vector<std::string>& names)
   return text;
 }
 
-/// One of many files is enough to see what they are; first those without an option.
+/// Files that show the format: all files named without an option, then one file of each option.
 std::vector<std::string> samples_of(const ArchiveFiles& files)
 {
   std::vector<std::string> names = files.unnamed;
@@ -76,7 +76,7 @@ std::vector<std::string> samples_of(const ArchiveFiles& files)
   return names;
 }
 
-/// UsageError naming a file without an option of which no format knows what it holds.
+/// Throws UsageError naming a file without an option that no format recognises.
 [[noreturn]] void refuse_unknown(const std::string& named, const std::vector<std::string>& unnamed,
                                  const std::vector<FileStart>& starts)
 {
@@ -87,17 +87,18 @@ std::vector<std::string> samples_of(const ArchiveFiles& files)
     });
     if (is_known) continue;
     throw UsageError(fmt::format(
-        "{}: its content{} is not known{}; name it with --grains or --contacts{}", unnamed[k],
-        named.empty() ? "" : " of --format " + named,
+        "{}: its content is not recognised{}{}; name it with --grains or --contacts{}", unnamed[k],
+        named.empty() ? "" : " as that of --format " + named,
         starts[k].lines.empty() ? "" : " by its first line, " + in_quotes(starts[k].lines.front()),
         named.empty() ? ", and its --format" : ""));
   }
   throw UsageError(
-      "the files are not of one program; name its --format, and the files with --grains and --contacts");
+      "the files are not of one program; name the program with "
+      "--format, and the files with --grains and --contacts");
 }
 
-/// The first format that knows all files; the one that was named, if any. Null where there is none and
-/// all files were named with an option.
+/// The first format that recognises all files, or null if none does. Only the format `named` is
+/// tried unless it is "". Throws UsageError instead of null if files were named without an option.
 const ArchiveFormat* recognize(const std::string& named, const ArchiveFiles& files, Roles& roles)
 {
   std::vector<FileStart> starts;
@@ -130,13 +131,14 @@ bool names_all_files(const ImportSettings& settings)
          (!files.contacts.empty() || !needs_contacts(settings));
 }
 
-/// Takes files for what they hold, and says so in a question, if there are any to ask.
+/// Sets `place` to the files that were found, and adds a question for the user, unless `questions`
+/// is null. Throws UsageError if files were already named with the option.
 void take(std::vector<std::string>& place, const std::vector<std::string>& found,
           const Question& question, Questions* questions)
 {
   if (found.empty()) return;
   if (!place.empty())
-    throw UsageError(fmt::format("{} is among {}, too: name it behind {}", found.front(),
+    throw UsageError(fmt::format("{} also belongs to {}: name it behind {}", found.front(),
                                  question.what, question.option));
   if (questions != nullptr)
     questions->ask({question.what, question.option + " " + listed(found), question.reason});
@@ -149,7 +151,7 @@ void take_all(const Roles& roles, const ArchiveFormat& format, ArchiveFiles& fil
   take(files.grains, roles.grains, {"the files with the grains", "--grains", ""}, questions);
   if (format.takes_contacts && (roles.any_grains || roles.restart.empty()))
     take(files.contacts, roles.contacts, {"the files with the contacts", "--contacts", ""},
-         questions);  // restart files alone hold them
+         questions);  // restart files without grain files contain the contacts
   std::vector<std::string> restart;
   if (files.restart.empty())
     take(restart, roles.restart, {"the restart file", "--restart", ""}, questions);
@@ -157,7 +159,8 @@ void take_all(const Roles& roles, const ArchiveFormat& format, ArchiveFiles& fil
   files.unnamed.clear();
 }
 
-/// Asks for the files that cannot be proposed. Without them nothing can be read.
+/// Asks for the files that cannot be proposed. Throws the questions if a file is missing, because
+/// nothing can be read without it.
 void ask_for_the_rest(const ImportSettings& settings, Questions& questions)
 {
   const auto& files = settings.files;
@@ -194,7 +197,7 @@ ImportSettings with_proposed_files(const ImportSettings& settings, Questions& qu
     questions.ask({"the program that wrote it",
                    fmt::format("--format {}", format == nullptr ? "NAME" : format->name),
                    format == nullptr ? fmt::format("{}", fmt::join(names_of_formats(), ", "))
-                                     : "by the look of its files"});
+                                     : "by the content of its files"});
   if (format != nullptr) {
     proposed.format = format->name;
     take_all(roles, *format, proposed.files, &questions);

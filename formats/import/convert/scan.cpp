@@ -15,7 +15,7 @@
 namespace grseg {
 namespace {
 
-/// Collects the grains of one moment after another.
+/// Collects the grains of successive frames in a roster.
 class Collector {
  public:
   void add(const ArchiveMoment& moment)
@@ -54,7 +54,7 @@ class Collector {
     all.grains.unwrapped = true;
     all.contacts = {};
     all.questions.clear();
-    all.place = fmt::format("all moments from {} on", first.place);
+    all.place = fmt::format("all frames from {} on", first.place);
     roster_.fewest = first.grains.size();
   }
 
@@ -87,7 +87,7 @@ class Collector {
       if (!from.empty()) to.push_back(from[g]);
       if (!to.empty() && to.size() != all.size())
         throw FormatError(fmt::format(
-            "{}: some moments have {} of grains and some do not; import them separately, with "
+            "{}: some frames have {} of grains and some do not; import them separately, with "
             "--begin and --end",
             moment.place, what));
     };
@@ -101,24 +101,40 @@ class Collector {
   }
 
   struct Seen {
-    std::size_t times = 0, last = 0;  // the number of the moment
+    std::size_t times = 0, last = 0;  // number of frames with the grain; number of the last of them
   };
   Roster roster_;
   std::unordered_map<std::int64_t, std::size_t> row_;
   std::vector<Seen> seen_;
 };
 
-bool grains_change_early(const ImportSettings& settings)
+bool same_ids(const ArchiveGrains& a, const ArchiveGrains& b)
 {
-  constexpr std::size_t early = 20;
-  try {
-    return read_roster(settings, early).grains_change();
-  } catch (const ToolError&) {  // to be reported when it is that moment's turn
-    return false;
-  }
+  if (a.id == b.id) return true;
+  auto first = a.id, second = b.id;
+  std::sort(first.begin(), first.end());
+  std::sort(second.begin(), second.end());
+  return first == second;
 }
 
-/// Where walls bound the flow there need not be one.
+/// True if one of the first frames has other grains than the first. Frames behind it are not read,
+/// so they may be damaged.
+bool grains_change_early(const ImportSettings& settings)
+{
+  constexpr int early = 20;
+  try {
+    Moments moments(settings);
+    ArchiveMoment first, moment;
+    if (!moments.next_grains(first)) return false;
+    for (int k = 1; k < early && moments.next_grains(moment); ++k)
+      if (!same_ids(first.grains, moment.grains)) return true;
+  } catch (const ToolError&) {  // the import reports the error when it reads that frame
+  }
+  return false;
+}
+
+/// True if neither the archive nor an option says which grains are the base. (A flow between walls
+/// may have no base grains.)
 bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 {
   const auto& species = settings.species;
@@ -127,12 +143,11 @@ bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 
 }  // namespace
 
-Roster read_roster(const ImportSettings& settings, std::size_t most)
+Roster read_roster(const ImportSettings& settings)
 {
   Moments moments(settings);
   Collector collector;
-  std::size_t read = 0;
-  for (ArchiveMoment moment; read < most && moments.next_grains(moment); ++read) {
+  for (ArchiveMoment moment; moments.next_grains(moment);) {
     stop_if_interrupted();
     collector.add(moment);
   }
@@ -147,13 +162,13 @@ void require_same_grain(const ArchiveGrains& known, std::size_t row, const Archi
                                   what, now.id[g], before, after, remedy));
   };
   constexpr const char* used_again =
-      "was its id used again after a grain had been removed? Then import the moments before and "
+      "was its id used again after a grain had been removed? Then import the frames before and "
       "after it separately, with --begin and --end";
   constexpr const char* later =
-      "was its mass set only after it had been poured in, or its id used again after a removal? Then "
-      "import the moments before and after it separately, with --begin and --end";
+      "was its mass set only after it had been poured in, or its id used again after a removal? "
+      "Then import the frames before and after it separately, with --begin and --end";
   constexpr const char* frozen =
-      "grains that are frozen or let go later are another bed: import the phases separately, with "
+      "if grains are frozen or released later, import the phases separately, with "
       "--begin and --end";
   const auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(a)); };
   const auto compare = [&](const auto& before, const auto& after, const char* what,
@@ -174,7 +189,7 @@ ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<c
 {
   if (!moments_.next(moment))
     throw FormatError(fmt::format(
-        "{}: the archive holds no moment with grains and contacts; is it whole?",
+        "{}: the archive has no frame with grains and contacts; is it complete?",
         settings.files.grains.empty() ? settings.files.restart : settings.files.grains.front()));
   if (!roster_ && moment.grains.size() == 0)
     throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
@@ -191,7 +206,7 @@ std::vector<std::string> ScannedArchive::remarks() const
   auto remarks = archive().remarks();
   for (auto& of_moments : moments_.remarks()) remarks.push_back(std::move(of_moments));
   if (roster_)
-    remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} present",
+    remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} in a frame",
                                   roster_->all.grains.size(), roster_->fewest, roster_->most));
   return remarks;
 }
@@ -203,7 +218,8 @@ bool ScannedArchive::next()
   return true;
 }
 
-/// Where nothing says which grains are the base. Without a roster the next moment tells, too.
+/// True for each grain at rest, which may be a base grain; empty if the base is known. Uses the
+/// roster, or the current and the next frame.
 std::vector<bool> ScannedArchive::resting_grains_of(const ImportSettings& settings) const
 {
   if (!base_is_open(all_grains().grains, settings)) return {};
@@ -214,8 +230,8 @@ std::vector<bool> ScannedArchive::resting_grains_of(const ImportSettings& settin
   return resting_grains(moment.grains, more ? &later.grains : nullptr);
 }
 
-/// One of the first moments that has half of the grains, or as many as there are; with the questions
-/// of all before it.
+/// One of the first 100 frames, with half of the roster's largest number of grains or more;
+/// otherwise the one with most grains. Includes the questions of the frames before it.
 ArchiveMoment ScannedArchive::full_moment(const ImportSettings& settings) const
 {
   constexpr int furthest = 100;
@@ -230,8 +246,8 @@ ArchiveMoment ScannedArchive::full_moment(const ImportSettings& settings) const
   return full;
 }
 
-/// Asks for everything that species and origin leave open. An error is only thrown where no
-/// question is open, as it may come from a missing answer.
+/// Asks for everything that species and origin leave open. Other errors are thrown only if no
+/// question is open, because a missing answer may cause them.
 void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
                                      const std::vector<bool>& resting, Questions& questions) const
 {
@@ -247,7 +263,7 @@ void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
       questions.ask(question);
       trial.origin = "0";
     } else {
-      // As if the proposal were accepted: "--boundary 3" or "--boundary-ids 1-35".
+      // Tries the proposed option: "--boundary 3" or "--boundary-ids 1-35".
       trial.species.boundary.reset();
       const auto answer = question.option.substr(question.option.find(' ') + 1);
       (question.option.starts_with("--boundary-ids") ? trial.species.boundary_ids
@@ -257,7 +273,7 @@ void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
   ask_for_the_cell(settings, questions);
   try {
     questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
-    // With one species, else open species hide an open origin.
+    // Tries again with a single species, because questions about species hide those about origin.
     const auto& species = trial.species;
     trial.species = {{"grains=all"}, {}, {}, species.boundary, species.boundary_ids, {}, {}, {}};
     questions.collect([&] { ImportedBed(all_grains(), facts, trial); });
@@ -266,7 +282,7 @@ void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
   }
 }
 
-/// All moments are read for what is proposed.
+/// Question for the bounds of the cell along an axis. Reads all frames to propose an answer.
 Question ScannedArchive::question_of_cell(const ImportSettings& settings, int axis) const
 {
   double low = all_grains().low[axis], high = all_grains().high[axis];
@@ -274,17 +290,17 @@ Question ScannedArchive::question_of_cell(const ImportSettings& settings, int ax
     try {
       const auto all = read_roster(settings).all;
       low = all.low[axis], high = all.high[axis];
-    } catch (const ToolError&) {  // to be reported when it is that moment's turn
+    } catch (const ToolError&) {  // the import reports the error when it reads that frame
     }
   }
   const char name = "xyz"[axis];
   return {fmt::format("the ends of the cell along {}", name),
           "--cell " + ToldCell{axis, low, high, false}.text(),
-          "the archive states none, or one that follows its grains; this is their extent over all "
-          "moments"};
+          "the archive states no cell, or one fitted to its grains; "
+          "this is the grains' extent over all frames"};
 }
 
-/// Asks for the ends of the cell: areas and volumes of the bed are computed with them.
+/// Asks for the bounds of the cell, which areas and volumes of the bed depend on.
 void ScannedArchive::ask_for_the_cell(const ImportSettings& settings, Questions& questions) const
 {
   const auto walls = parse_walls(settings.walls);

@@ -7,65 +7,64 @@
 #include "formats/import/facts/run_facts.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <string>
 
 namespace grseg {
 
-/// The settings where --format names the program, and files that were named without an option are
-/// taken for what they hold. UsageError where one does not show it.
+/// Settings with the roles of files that were named without an option, found from their content.
+/// For a known --format. Throws UsageError if a file's role cannot be recognised.
 ImportSettings with_known_files(const ImportSettings& settings);
 
-/// The settings with what files by themselves show: the format, and which of the files that were
-/// named without an option hold grains and which contacts. All of it is asked for in `questions`, as
-/// is a missing output. UsageError where a file is missing.
+/// Settings completed from the content of the files: the format, and which files named without an
+/// option contain grains or contacts. `questions` asks the user to confirm each of these, and for a
+/// missing output. Throws UsageError if a file is missing.
 ImportSettings with_proposed_files(const ImportSettings& settings, Questions& questions);
 
-/// All grains of an archive in which grains come and go.
+/// List of all grains of an archive in which grains enter and leave.
 struct Roster {
-  /// A moment that never was, with every grain that ever occurs in the range of the import: its
-  /// type, radius, mass and fixed flag, the mean of its positions and the fastest of its velocities.
-  /// Where the cell is open it holds all grains of all moments. No contacts. Facts that would
-  /// otherwise be found from the first moment are found from this one.
+  /// An artificial frame with every grain that occurs in the range of the import: its type, radius,
+  /// mass and fixed flag, its mean position and its velocity of largest magnitude; no contacts.
+  /// Along open directions the cell encloses all grains of all frames. Facts that are otherwise
+  /// found from the first frame are found from this one.
   ArchiveMoment all;
-  std::size_t fewest = 0, most = 0;  // grains at a moment
+  std::size_t fewest = 0, most = 0;  // smallest and largest number of grains in a frame
   std::size_t moments = 0;
 
   bool grains_change() const { return fewest < all.grains.size(); }
 };
 
-/// Checks that a grain keeps its radius, mass, type and fixed flag for as long as it has its id, as
-/// far as the archive has them. FormatError naming `place`, with a remedy, where grain g of `now`
-/// differs from grain `row` of `known`.
+/// Checks that radius, mass, type and fixed flag of a grain are constant, as far as the archive has
+/// them. Throws FormatError with `place` and a remedy if grain g of `now` differs from grain `row`
+/// of `known`, which has the same id.
 void require_same_grain(const ArchiveGrains& known, std::size_t row, const ArchiveGrains& now,
                         std::size_t g, const std::string& place);
 
-/// A moment has other grains than the first one, so that all moments have to be scanned.
+/// Error: a frame has other grains than the first one, so all frames have to be scanned.
 struct OtherGrains : FormatError {
   using FormatError::FormatError;
 };
 
-/// A scanned archive: the facts of its run, and, where grains come and go, a roster of them; and
-/// the archive itself at one of its moments, from the first on.
+/// An open archive with the facts of its run. `moment` is the current frame, the first one after
+/// construction. If grains enter and leave, a roster lists them.
 class ScannedArchive {
  public:
-  /// From the grains of the first moments alone, without a roster. Throws what readers and facts
-  /// throw; OpenQuestions with `questions` and all that is missing; FormatError where the archive
-  /// holds no moment, OtherGrains where it begins without grains and there is no roster.
+  /// Finds the facts from `roster`, or from the first frame if it is null. Throws the errors of
+  /// readers and collect_facts(); OpenQuestions with `questions` and all missing facts; FormatError
+  /// if there is no frame; OtherGrains if the first frame has no grains and `roster` is null.
   explicit ScannedArchive(const ImportSettings& settings,
                           std::shared_ptr<const Roster> roster = nullptr, Questions questions = {});
 
-  /// Reads the next moment; false at the end. OpenQuestions where the reader cannot go on.
+  /// Reads the next frame; false at the end. Throws OpenQuestions if the reader needs an answer.
   bool next();
-  /// Like `next`, without the contacts of the moment.
+  /// Reads the next frame without its contacts; false at the end.
   bool next_grains() { return moments_.next_grains(moment); }
   const Archive& archive() const { return moments_.archive(); }
-  /// Sentences on what is left out so far.
+  /// Sentences about the data left out so far.
   std::vector<std::string> remarks() const;
-  /// The grains of all moments; null where they all have the grains of the first one.
+  /// The grains of all frames; null if all frames have the grains of the first one.
   const std::shared_ptr<const Roster>& roster() const { return roster_; }
-  /// A moment with all grains of the run: the roster's, or as long as it has not been left the first.
+  /// A frame with all grains of the run: Roster::all, or without a roster the current frame.
   const ArchiveMoment& all_grains() const { return roster_ ? roster_->all : moment; }
 
   ArchiveMoment moment;
@@ -83,16 +82,16 @@ class ScannedArchive {
   std::shared_ptr<const Roster> roster_;
 };
 
-/// How far a scan goes. All moments are read where they are needed: it takes as long as half an import.
+/// Number of frames that a scan reads. Reading all of them takes half as long as an import.
 enum class Scan { first_moments, all_moments };
 
-/// Scans an archive, of which the command line may name files only. Where its facts cannot be found
-/// from the grains of the first moment, and other moments have others, of all moments. FormatError
-/// naming moment and grain where an id occurs twice at a moment or changes what a grain keeps.
+/// Opens an archive and finds the facts of its run; the command line may name its files only. All
+/// frames are scanned if the grains of the first one do not suffice and other frames have other
+/// grains. Throws FormatError naming frame and grain if an id occurs twice in a frame, or if a
+/// property of a grain changes (require_same_grain()).
 ScannedArchive scan(const ImportSettings& settings, Scan how_far = Scan::first_moments);
 
-/// The grains of the first moments in the range of the import, `most` at most.
-Roster read_roster(const ImportSettings& settings,
-                   std::size_t most = std::numeric_limits<std::size_t>::max());
+/// The grains of all frames in the range of the import.
+Roster read_roster(const ImportSettings& settings);
 
 }  // namespace grseg

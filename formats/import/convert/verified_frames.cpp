@@ -46,9 +46,9 @@ bool VerifiedFrames::next(Frame<3>& frame)
   if (!std::exchange(first_, false) && !scanned_.next()) return false;
   const auto& moment = scanned_.moment;
   if (moment.grains.size() > 0 && moment.grains.force.empty() == bed_.has_force)
-    throw FormatError(fmt::format(
-        "{}: some moments have forces on grains and some do not; import them separately",
-        moment.place));
+    throw FormatError(
+        fmt::format("{}: some frames have forces on grains and some do not; import them separately",
+                    moment.place));
   bed_.build(moment, frame);
   if (walls_) walls_->add_to(frame);
   if (last_ && (frame.step <= last_->first || frame.time <= last_->second))

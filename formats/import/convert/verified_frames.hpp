@@ -14,21 +14,21 @@
 
 namespace grseg {
 
-/// The moments of an archive as frames, each verified, in the archive's units.
+/// Converts frames of an archive to frames of a trajectory, in the archive's units; verifies each.
 class VerifiedFrames {
  public:
   VerifiedFrames(ScannedArchive scanned, const ImportSettings& settings);
   VerifiedFrames(const VerifiedFrames&) = delete;
   VerifiedFrames& operator=(const VerifiedFrames&) = delete;
 
-  /// Before the first `next`: leaves out that many moments, of which only grains are read but of the
-  /// last, with which velocities of the next one are compared.
+  /// Skips this number of frames; to be called before the first `next`. Reads their grains only,
+  /// except for the last one, because the check of the next frame's velocities needs it.
   void skip(std::size_t moments);
-  /// False at the end. `complaint` then says what is wrong with the frame, if anything.
+  /// Reads the next frame; false at the end. complaint() then describes the frame's error, if any.
   bool next(Frame<3>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_.residual(); }
-  /// The checks' memory of the last frame, in the archive's units.
+  /// Quantities that the checks compute from the last frame, in the archive's units.
   const CheckMoment& moment() const { return verification_.moment(); }
   const std::string& place() const { return scanned_.moment.place; }
 
@@ -37,7 +37,7 @@ class VerifiedFrames {
   const RunFacts& facts() const { return scanned_.facts; }
   const ImportedBed& bed() const { return bed_; }
   const Waivers& waivers() const { return waivers_; }
-  /// The walls of --wall; null where there are none.
+  /// The walls given by --wall; null if there are none.
   const InferredWalls* walls() const { return walls_.get(); }
 
  private:
@@ -47,7 +47,7 @@ class VerifiedFrames {
   std::unique_ptr<InferredWalls> walls_;
   Verification verification_;
   std::optional<Complaint> complaint_;
-  std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the frame before
+  std::optional<std::pair<std::int64_t, double>> last_;  // step and time of the previous frame
   bool first_ = true;
 };
 

@@ -18,20 +18,20 @@
 namespace grseg {
 namespace {
 
-/// Facts of the run in the comments above a table of grains, in the table's units, a line each:
-///   # periodic: x 0 0.35          for each axis that is
+/// Facts of the run, from the comments above a table of grains, in the table's units, a line each:
+///   # periodic: x 0 0.35          a line for each periodic axis
 ///   # gravity: 3.83 -9.02 0
 ///   # step: 1e-5
 ///   # units: si                   or cgs, lj
 ///   # grains: spheres             or discs
-/// Other comments are passed over.
+/// Other comments are ignored.
 struct CsvComments {
   ArchiveFacts facts;
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // of the periods
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounds of the cell along periodic axes
   std::array<bool, 3> periodic{};
 };
 
-/// NaN where the next word is not a number.
+/// Reads the next word as a number; NaN if it is not one.
 double next_number(std::istream& text)
 {
   std::string word;
@@ -91,7 +91,7 @@ constexpr Line lines[] = {{"# periodic:", read_period, "# periodic: x 0 0.35"},
                            },
                            "# grains: spheres"}};
 
-/// FormatError where one of these lines is not of its form.
+/// Reads the facts. Throws FormatError if one of these lines does not have its form.
 CsvComments read_csv_comments(const std::vector<std::string>& comments)
 {
   CsvComments found;
@@ -147,13 +147,13 @@ Vec3 vector_at(const CsvTable& table, std::size_t row, std::size_t x)
   return {table.value(row, x), table.value(row, x + 1), table.value(row, x + 2)};
 }
 
-/// True where there is a column of one of the three components.
+/// True if the table has a column for at least one of the three components.
 bool has_any(const CsvTable& table, std::size_t x)
 {
   return table.has(x) || table.has(x + 1) || table.has(x + 2);
 }
 
-/// `letters` stand before x, y and z.
+/// Appends the names of missing components to `missing`; a name is `letters` and x, y or z.
 void add_missing(const CsvTable& table, std::size_t x, const std::string& letters,
                  std::vector<std::string>& missing)
 {
@@ -163,7 +163,7 @@ void add_missing(const CsvTable& table, std::size_t x, const std::string& letter
 
 [[noreturn]] void fail_at(const CsvTable& table, std::size_t row, const std::string& why)
 {
-  throw FormatError(fmt::format("{}, row {} of that time: {}", table.begin(), row + 1, why));
+  throw FormatError(fmt::format("{}, row {} of this frame: {}", table.begin(), row + 1, why));
 }
 
 std::int64_t whole_number_at(const CsvTable& table, std::size_t row, std::size_t column,
@@ -190,12 +190,12 @@ std::vector<std::string> all_names(std::span<const CsvTable::Column> columns)
   return names;
 }
 
-/// A plane has two axes, of which x is one.
+/// Throws FormatError if the table has neither the y nor the z component of a vector.
 void require_y_or_z(const CsvTable& table, std::size_t x, const char* y)
 {
   if (!table.has(x + 1) && !table.has(x + 2))
-    table.fail(
-        fmt::format("no column {0} among {1}; --map NAME={0} tells which it is", y, table.names()));
+    table.fail(fmt::format("no column {0} among {1}; name the column with --map NAME={0}", y,
+                           table.names()));
 }
 
 class CsvArchive : public Archive {
@@ -247,18 +247,22 @@ class CsvArchive : public Archive {
   }
 
  private:
-  /// Goes to the next moment that both tables have.
+  /// Advances to the next frame that both tables have.
   bool next_of_both()
   {
     const auto table = [](CsvTable& of) {
-      return Matching::Table{[&of] { return of.next(); }, [&of] { return of.moment().value; }};
+      return Matching::Table{[&of] { return of.next(); },
+                             [&of] {
+                               const auto [value, is_step] = of.moment();
+                               return fmt::format("{:.{}g}", value, is_step ? 17 : 10);
+                             }};
     };
     const auto order = [this] {
       const auto grains = grains_.moment(), contacts = contacts_.moment();
       if (grains.is_step != contacts.is_step)
         contacts_.fail(fmt::format(
-            "the table of contacts has {}, but the table of grains has {}: give both the same, as a column "
-            "or in the names of files",
+            "the table of contacts has {}, but the table of grains has {}: write the same in both, "
+            "as a column or in the names of files",
             contacts.is_step ? "steps" : "times", grains.is_step ? "steps" : "times"));
       const double a = grains.value, b = contacts.value;
       const double scale =
@@ -320,7 +324,7 @@ class CsvArchive : public Archive {
   Matching matching_;
 };
 
-/// Contacts name two grains in the line of names.
+/// Role of a file by its line of column names: a table of contacts has a column j or id2.
 FileRole role_of(const FileStart& start)
 {
   for (const auto& line : start.lines) {
@@ -337,16 +341,17 @@ FileRole role_of(const FileStart& start)
   return FileRole::none;
 }
 
-/// Two plain tables (csv_table.hpp), which a script can write for any program. Names of columns
-/// with their synonyms; `files.map` gives others (csv_map.hpp); a missing component is 0:
+/// Opens two plain tables (csv_table.hpp), which a script can write for any program. Names of
+/// columns and their synonyms follow; `files.map` adds the user's names (csv_map.hpp). Missing
+/// components are 0.
 ///   grains    time|t id x y z; radius|r or diameter|d; vx vy vz, omega|wz|omegaz (also wx|omegax,
 ///             wy|omegay), mass|m, type|species, fixed, fx fy fz: the total force, with gravity
 ///   contacts  time|t i|id1 j|id2 fx fy fz: force ON i FROM j; overlap|delta|penetration; bx by bz:
 ///             branch x_i - x_j
-/// Instead of the time there may be step|timestep|iteration|cycle, or one file per moment (
-/// csv_table.hpp). j < 0 is straight wall -j-1, where a branch (x_i - contact point) is needed.
-/// Moments are matched by time or step. Comments above the names of the grains' table may state
-/// facts of the run (CsvComments).
+/// The time can be replaced by step|timestep|iteration|cycle, or by one file per frame
+/// (csv_table.hpp). j < 0 means straight wall -j-1, which needs a branch (x_i - contact point).
+/// Frames of the two tables are matched by time or step. Comments above the grains' column names
+/// may state facts of the run (CsvComments).
 std::unique_ptr<Archive> open_csv(const ArchiveFiles& files)
 {
   return std::make_unique<CsvArchive>(files);
@@ -367,9 +372,9 @@ const ArchiveFormat csv_format{
         "    --map particle1=i,particle2=j,Fx=fx,Fy=fy --units si --step 1e-5 --gravity 9.81 \\\n"
         "    --slope 23 -o run.h5\n",
     .notes =
-        "  csv: tables whose first line names the columns (grains: time id x y vx vy and\n"
-        "  radius|diameter; optional z vz wx wy omega mass type fixed fx fy fz; contacts:\n"
-        "  time i j fx fy; optional fz overlap bx by bz; in three dimensions all of x y z), or\n"
-        "  step instead of time, or one file per step with the step in its name\n"};
+        "  csv: tables whose first line names the columns. Grains: time id x y vx vy and radius\n"
+        "  or diameter; optional z vz wx wy omega mass type fixed fx fy fz. Contacts: time i j\n"
+        "  fx fy; optional fz overlap bx by bz. Vectors in 3D need x, y and z. Instead of time:\n"
+        "  a column step, or one file per step with the step in its name\n"};
 
 }  // namespace grseg

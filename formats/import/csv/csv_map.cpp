@@ -55,9 +55,10 @@ void CsvMap::add_list(const std::string& list)
     const auto sign = part.rfind('=');
     const auto name = bare_name(part.substr(0, sign));
     if (sign == std::string::npos || name.empty())
-      throw UsageError(fmt::format(
-          "--map '{}' is not NAME=COLUMN, such as particle1=i, or NAME= for a column to leave out",
-          part));
+      throw UsageError(
+          fmt::format("--map '{}' is neither NAME=COLUMN, such as "
+                      "particle1=i, nor NAME= for a column to leave out",
+                      part));
     const auto column = bare_name(part.substr(sign + 1));
     if (!column.empty() && !is_in(known_, column) && !is_in(elsewhere_, column)) {
       std::set<std::string> all(known_.begin(), known_.end());
@@ -66,7 +67,7 @@ void CsvMap::add_list(const std::string& list)
           unknown_word("--map " + part.substr(0, sign + 1), column, {all.begin(), all.end()}));
     }
     if (is_row(name) && column != "id")
-      throw UsageError(fmt::format("--map {}: the number of a row can be an id alone", part));
+      throw UsageError(fmt::format("--map {}: the number of a row can only be an id", part));
     parts.push_back({name, column, part, number_of(name)});
   }
   if (is_of_the_other_table(parts))
@@ -74,7 +75,7 @@ void CsvMap::add_list(const std::string& list)
   parts_.insert(parts_.end(), parts.begin(), parts.end());
 }
 
-/// True where the names that the list gives to numbers of columns belong to the other table.
+/// True if the list assigns names of the other table to column numbers.
 bool CsvMap::is_of_the_other_table(const std::vector<Part>& list) const
 {
   const auto has = [&](const auto& these, const auto& those) {
@@ -85,8 +86,8 @@ bool CsvMap::is_of_the_other_table(const std::vector<Part>& list) const
   return has(elsewhere_, known_) && !has(known_, elsewhere_);
 }
 
-/// The last of the parts that say what a column of this table is, but rather one whose name the
-/// other table may not have. All of them count as used.
+/// The part of --map that names a column of this table. Among several, the last one whose name only
+/// this table may have, or else the last one. Marks all of them as used.
 template <class IsIt>
 const CsvMap::Part* CsvMap::last_that(const IsIt& is_it)
 {
@@ -100,7 +101,7 @@ const CsvMap::Part* CsvMap::last_that(const IsIt& is_it)
   return found;
 }
 
-/// By its name, with its unit or without, or else by its number.
+/// The part of --map for a column, found by its name (with or without unit) or by its number.
 const CsvMap::Part* CsvMap::part_of(const std::string& name, std::size_t number)
 {
   for (const auto& text : {bare_name(name), plain_name(name)})

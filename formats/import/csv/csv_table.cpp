@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::string_view digits = "0123456789";
 
-/// The part of `path` in the place of a pattern's last `*`; where no pattern fits, the file's name
-/// without endings.
+/// The text of `path` that matches the `*` of a pattern; if no pattern matches, the file's name
+/// without its endings.
 std::string moment_in(const std::string& path, const std::vector<std::string>& patterns)
 {
   for (const auto& pattern : patterns) {
@@ -41,7 +41,7 @@ std::optional<CsvMoment> read_moment(const std::string& text)
     return CsvMoment{time, false};
   const auto last = text.find_last_of(digits);
   if (last == std::string::npos) return std::nullopt;
-  const auto first = text.find_last_not_of(digits, last) + 1;  // 0 where there is nothing before
+  const auto first = text.find_last_not_of(digits, last) + 1;  // 0 if no text precedes the digits
   std::int64_t step = 0;
   if (!parse_whole(text.substr(first, last + 1 - first), step)) return std::nullopt;
   return CsvMoment{static_cast<double>(step), true};
@@ -58,7 +58,7 @@ std::string_view without_blanks(std::string_view text)
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// The first `separator` from `at` on that is not in quotation marks, or the end.
+/// Position of the first `separator` from `at` on, outside quotation marks, or of the line's end.
 std::size_t end_of_field(std::string_view line, std::size_t at, char separator)
 {
   bool quoted = false;
@@ -169,7 +169,7 @@ bool CsvTable::open_next()
   return true;
 }
 
-/// The next line of the file at hand that is not a comment.
+/// Advances to the next line of the open file that is neither empty nor a comment.
 bool CsvTable::next_line()
 {
   while (source_->next()) {
@@ -194,7 +194,7 @@ void CsvTable::read_names()
   require_a_moment();
 }
 
-/// True where the line, which should hold names, has numbers in all fields, or in more than half.
+/// True if the line, expected to have column names, has numbers in more than half of its fields.
 bool CsvTable::is_row_of_numbers()
 {
   for (const bool all : {true, false})
@@ -220,13 +220,14 @@ void CsvTable::name_columns()
     for (std::size_t k = 0, number = 0; k < columns_.size() && number < 2; ++k)
       if (columns_[k].needed)
         example += fmt::format("{}={},", ++number, parts_of(columns_[k].names, '|')[0]);
-    fail(fmt::format("the first line holds numbers, not names: give --map {}... for the columns",
-                     example));
+    fail(fmt::format(
+        "the first line contains numbers, not names: name the columns with --map {}...", example));
   }
   find_columns(names);
 }
 
-/// The comment right above the rows, if it has a word for each column.
+/// Reads column names from the comment directly above the rows; false if it does not have a word
+/// for each column.
 bool CsvTable::take_names_of_comment()
 {
   if (comments_.empty()) return false;
@@ -261,10 +262,10 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
     if (may_be_row && first_row_)
       row_column_ = place_.size() - 1;
     else if (column.needed)
-      fail(fmt::format("no column {0} among {1}; --map NAME={2} tells which it is{3}",
+      fail(fmt::format("no column {0} among {1}; name the column with --map NAME={2}{3}",
                        fmt::join(known, " or "), this->names(), known[0],
-                       may_be_row ? ", and --map row=id that the number of the row is it, from 0 "
-                                    "on (row+1=id: from 1)"
+                       may_be_row ? ", or use the number of the row, from 0, with "
+                                    "--map row=id (from 1: row+1=id)"
                                   : ""));
   }
 }
@@ -272,13 +273,13 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
 void CsvTable::require_a_moment() const
 {
   if (!has(0) && !has(1) && !files_[opened_ - 1].moment)
-    fail(fmt::format(
-        "no column time or step among {}, and the name of the file holds neither; --map "
-        "NAME=time tells which column it is",
-        names()));
+    fail(
+        fmt::format("no column time or step among {}, and none in the name of the "
+                    "file; name the column with --map NAME=time",
+                    names()));
 }
 
-/// True where the first line of a file names columns again.
+/// True if the first line of a further file contains column names.
 bool CsvTable::is_header() const
 {
   CsvNumbers numbers(separator_);
@@ -290,7 +291,7 @@ bool CsvTable::is_header() const
   return true;
 }
 
-/// Goes to the next line that is a row; false at the end.
+/// Advances to the next line that is a row; false at the end.
 bool CsvTable::go_to_row()
 {
   if (std::exchange(row_waits_, false)) return true;
@@ -306,14 +307,14 @@ bool CsvTable::go_to_row()
   return true;
 }
 
-/// Fills row_; false at the end.
+/// Reads the next row into row_; false at the end.
 bool CsvTable::next_row()
 {
   if (!go_to_row()) return false;
   if (!source_->line_is_whole() && opened_ == files_.size() && !ends_in_rows_)
     throw TruncatedArchive(
         fmt::format("{}: the table ends inside a line; copy it again, or leave out the incomplete "
-                    "moment with --drop-incomplete",
+                    "frame with --drop-incomplete",
                     source_->place()));
   split_csv(line_, separator_, fields_);
   while (fields_.size() > header_.size() && fields_.back().empty()) fields_.pop_back();
@@ -343,7 +344,7 @@ void CsvTable::read_fields()
   }
 }
 
-/// A whole number, or a word that stands for one.
+/// Reads a whole number, or a word, which gets a number as its code (TypeNames).
 void CsvTable::read_word(std::size_t column, std::string_view field)
 {
   if (numbers_.read(field, row_[column]) && TypeNames::is_type(row_[column])) return;

@@ -14,96 +14,96 @@
 
 namespace grseg {
 
-/// When the rows of a moment are: a time, or where the table has none, a step.
+/// The time of a frame's rows, or their step if the table has no times.
 struct CsvMoment {
   double value = 0;
   bool is_step = false;
 };
 
-/// One file of a table, and the moment that its name states: what stands for `*` is a time if it is
-/// a number with a decimal point, and otherwise ends in the digits of a step.
+/// One file of a table, and the time or step in its name. The text in place of `*` is a time if it
+/// is a number with a decimal point; otherwise its last digits are a step.
 struct CsvFile {
   std::string path;
   std::optional<CsvMoment> moment;
 };
 
-/// The files that `names` stand for (archive_files.hpp), in natural order. In names without `*` (which a
-/// shell may have replaced) the digits are the last ones before the ending.
+/// The files that match `names` (archive_files.hpp), in natural order. In names without `*` (a
+/// shell may have expanded it) the step is the last digits before the ending.
 std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std::string& option);
 
-/// The separator of a table's columns: the first of comma, semicolon and tab in the line of its
-/// names, outside quotation marks, or blanks.
+/// The separator of a table's columns: comma, semicolon or tab, the first of these that the line of
+/// column names contains outside quotation marks; otherwise a blank.
 char csv_separator(std::string_view names);
 
-/// The fields of a line. A field in quotation marks may hold separators; the marks and the blanks
-/// around a field go. They are views into `line`.
+/// Splits a line into fields, which are views into `line`. A field in quotation marks may contain
+/// separators. Quotation marks and blanks around a field are removed.
 void split_csv(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
-/// Numbers as C or Fortran writes them (text_values.hpp), with a point or, where commas do not separate
-/// columns, with a comma, the same in the whole table.
+/// Reads numbers in the notation of C or Fortran (text_values.hpp). If commas do not separate
+/// columns, the decimal sign may be a comma instead of a point, but the same in the whole table.
 class CsvNumbers {
  public:
   explicit CsvNumbers(char separator = ' ') : may_have_comma_(separator != ',') {}
 
-  /// False where `field` is not a finite number, or has the other decimal sign than those before.
+  /// Reads a number; false if it is not finite, or has another decimal sign than earlier numbers.
   bool read(std::string_view field, double& number);
-  /// A reason why the field is not read, to be added to a sentence; may be "".
+  /// The reason why a field was refused, to be added to a message; may be "".
   const char* why_not(std::string_view field) const;
 
  private:
   bool may_have_comma_;
-  char sign_ = 0;  // of decimals; 0: not known yet
+  char sign_ = 0;  // decimal sign, '.' or ','; 0: not known yet
 };
 
-/// A plain table in one file or many, each beginning with a line of column names (or, behind the
-/// first, going on without one), then rows: separated by commas, semicolons, tabs or blanks,
-/// with a byte-order mark or none, lines ending as in Windows or not. Names may stand
-/// in the comment above the rows, and where there are none --map names columns by number. Empty lines
-/// and lines that begin with #, % or // are skipped; those above the first names are kept. Only columns
-/// that are asked for must be numbers.
+/// Reads a plain table in one file or many. A file begins with a line of column names, optional
+/// after the first file; rows follow. Columns are separated by commas, semicolons, tabs or blanks.
+/// A byte-order mark and line ends of Windows are accepted. Names may also be in the comment above
+/// the rows; without names, --map names columns by number. Empty lines and lines that begin with #,
+/// % or // are skipped; comments() returns those above the first names. Only the required columns
+/// must be numbers.
 ///
-/// Rows are read in blocks of equal time, or of equal step; in a table that has neither column each
-/// file is a block, whose name says when it is.
+/// Rows of equal time or step form a frame. In a table without a column of times or steps each file
+/// is a frame, and its name states the time or step.
 class CsvTable {
  public:
-  /// The names of a column, "x|posx", in lower case.
+  /// A column that a table may have. `names` lists its possible names in lower case: "x|posx".
   struct Column {
     const char* names;
     bool needed = false;
     enum Holds {
       numbers,
-      truth,  // "true" and "false" may stand for 1 and 0
-      words,  // words may stand for numbers (text_values.hpp)
-      ids,    // --map may take the number of the row for it
+      truth,  // 1 and 0, or "true" and "false"
+      words,  // numbers or words (TypeNames in text_values.hpp)
+      ids,    // ids, which --map may set to the number of the row
     } holds = numbers;
   };
 
-  /// `columns[0]` is the time, `columns[1]` the step; of each the table may have none. UsageError
-  /// where a file is missing, FormatError naming the line where a required column is missing or
-  /// present twice.
+  /// Opens the table. `columns[0]` is the time, `columns[1]` the step; both are optional. Throws
+  /// UsageError if a file is missing, FormatError naming the line if a required column is missing
+  /// or present twice.
   CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map);
 
   bool has(std::size_t column) const { return place_[column] >= 0; }
-  /// The meaning of the words in a column of words.
+  /// The words of a column of words, and their codes.
   TypeNames& words() { return words_; }
   const std::vector<std::string>& comments() const { return comments_; }
-  /// For a sentence: the names at hand.
+  /// The column names of the current file, in quotation marks, for a message.
   std::string names() const;
   [[noreturn]] void fail(const std::string& why) const;
 
-  /// Reads the rows of the next moment; false at the end. FormatError naming the line where a row
-  /// is damaged, or of an earlier moment than the row above.
+  /// Reads the rows of the next frame; false at the end. Throws FormatError naming the line if a
+  /// row is damaged, or has an earlier time than the row above.
   bool next();
   CsvMoment moment() const { return moment_; }
-  /// To the next moment; 0 at the end.
+  /// Time (or steps) from this frame to the next; 0 at the end.
   double interval() const { return waiting_ ? moment_of_row().value - moment_.value : 0; }
   std::size_t rows() const { return rows_; }
-  /// 0 where the table has no such column.
+  /// Number in a row of this frame; 0 if the table does not have the column.
   double value(std::size_t row, std::size_t column) const
   {
     return values_[row * columns_.size() + column];
   }
-  /// "grains.csv, line 7": the first row of the moment.
+  /// File and line of the frame's first row: "grains.csv, line 7".
   const std::string& begin() const { return begin_; }
 
  private:
@@ -132,16 +132,16 @@ class CsvTable {
   std::vector<std::string> comments_, header_;
   char separator_ = ' ';
   CsvNumbers numbers_;
-  bool row_waits_ = false;  // it is the line at hand, which should have been names
+  bool row_waits_ = false;  // true: the current line, expected to have names, is a row to be read
   TypeNames words_;
-  std::vector<int> place_;                 // of the columns asked for; -1: missing
-  std::optional<std::int64_t> first_row_;  // where the numbers of rows stand for a column
-  std::size_t row_column_ = 0;             // this one
+  std::vector<int> place_;                 // index in the file, for each of columns_; -1: missing
+  std::optional<std::int64_t> first_row_;  // number of a frame's first row, if rows replace ids
+  std::size_t row_column_ = 0;             // index in columns_ of the column that rows replace
   std::vector<std::string_view> fields_;
-  std::vector<double> row_, values_;  // of the columns asked for
+  std::vector<double> row_, values_;  // values by column: of the next row; of the frame's rows
   bool started_ = false;
-  bool waiting_ = false;       // row_ is the first of the next moment
-  bool ends_in_rows_ = false;  // files before this one have no line end behind their last row
+  bool waiting_ = false;       // true: row_ is the first row of the next frame
+  bool ends_in_rows_ = false;  // true: an earlier file has no line end behind its last row
   std::string begin_, waiting_place_;
   CsvMoment moment_;
   std::size_t rows_ = 0;

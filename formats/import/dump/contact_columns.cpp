@@ -27,7 +27,7 @@ const ColumnWords& contact_words()
 
 using Names = std::initializer_list<const char*>;
 
-// `%` is x, y or z, `#` is 1, 2 and 3.
+// Names of columns, compared by compared_name(). `%` means x, y or z; `#` means 1, 2 or 3.
 constexpr Names first_ids{"i", "id1", "idi", "patom1", "atom1", "particle1", "tag1"};
 constexpr Names second_ids{"j", "id2", "idj", "patom2", "atom2", "particle2", "tag2"};
 constexpr Names forces{"f%", "force%", "ftotal%"};
@@ -38,19 +38,19 @@ constexpr Names branches{"b%", "branch%"};
 constexpr Names distances{"dist", "distance"};
 constexpr Names overlaps{"overlap", "delta", "deltan", "penetration"};
 
-/// Pieces of a mapping, found by the names of columns.
+/// Finds columns by their names and writes parts of a mapping, the text of --columns.
 class Namer {
  public:
   explicit Namer(const DumpHeader& header) : header_(header) {}
 
-  /// "i=id1"; "" where no column has one of the names.
+  /// The part "i=id1"; "" if no column has one of the names.
   std::string scalar(const char* word, Names names) const
   {
     for (const char* name : names)
       if (const auto column = of(name); !column.empty()) return fmt::format("{}={}", word, column);
     return "";
   }
-  /// "fx=fnx,fy=fny,fz=fnz" of those components that there are, for the letter f.
+  /// The part "fx=fnx,fy=fny,fz=fnz" for the letter f, without the components that have no column.
   std::string vector(char letter, Names names) const
   {
     for (const std::string name : names) {
@@ -104,7 +104,7 @@ void ColumnMap::assign(const std::string& word, const std::string& column)
     const auto number = number_of(column);
     if (number == 0)
       throw UsageError(fmt::format(
-          "{}: {}={}: give the number of the first of three columns, or {} {} {} one "
+          "{}: {}={}: write the number of the first of three columns, or {} {} {} one "
           "by one",
           words_.option, word, column, words[first], words[first + 1], words[first + 2]));
     for (std::size_t k = 0; k < 3; ++k) column_[first + k] = std::to_string(number + k);
@@ -154,7 +154,7 @@ ContactColumns::ContactColumns(const std::string& columns) : ColumnMap(contact_w
         "--columns '{}' does not name the columns of i, j and a force, as in i=2,j=3,force=5",
         text()));
   if (has(dist) && has(overlap))
-    throw UsageError("--columns: dist and overlap both give the overlap; leave one out");
+    throw UsageError("--columns: dist and overlap both determine the overlap; leave one out");
   if (has(wall) && !(has(bx) || has(by) || has(bz)))
     throw UsageError("--columns: wall needs the branch bx by bz to the contact point");
 }
@@ -170,8 +170,8 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
     for (const double id : of(meaning)) {
       if (!is_whole(id))
         throw FormatError(
-            fmt::format("{}: {:g} in the column of {} is not an id of a grain; say "
-                        "what the columns mean with --columns",
+            fmt::format("{}: {:g} in the column of {} is not an id of a grain; set "
+                        "the meaning of the columns with --columns",
                         place, id, contact_words().words[meaning]));
       out.push_back(static_cast<std::int64_t>(id));
     }
@@ -185,7 +185,7 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   };
   ids(i, contacts.i);
   ids(j, contacts.j);
-  // To -0 everything adds without loss, the sign of 0 included.
+  // Sums start at -0, because -0 + x is exactly x, also for x = -0 and x = +0.
   contacts.force.assign(contacts.size(), Vec3::Constant(-0.0));
   add(fx, contacts.force);
   add(tx, contacts.force);
@@ -202,7 +202,7 @@ void ContactColumns::fill(const std::vector<std::vector<double>>& values, const 
   for (const double number : of(wall)) {
     if (!is_whole(number, 1e9))
       throw FormatError(
-          fmt::format("{}: {:g} in the column of wall is not a number of a wall", place, number));
+          fmt::format("{}: {:g} in the column of wall is not the number of a wall", place, number));
     contacts.wall.push_back(number < 0 ? -1 : static_cast<std::int32_t>(number));
   }
 }

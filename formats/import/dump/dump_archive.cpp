@@ -19,10 +19,10 @@
 namespace grseg {
 namespace {
 
-// For an acceleration that they share by chance to be unlikely.
+// Number of grains that are unlikely to have the same acceleration by chance.
 constexpr std::size_t enough_grains = 8;
 
-/// One moment, with all columns of its contacts.
+/// Tests values of --columns on one frame, of which it stores all columns of the contacts.
 class ColumnTrial {
  public:
   ColumnTrial(DumpPair& dumps, const DumpDialect& dialect, const std::optional<Vec3>& gravity)
@@ -38,8 +38,7 @@ class ColumnTrial {
     dumps.contacts().read_rows(all, rows_);
   }
 
-  /// The residual of balance() with these columns; nothing where one cannot have the meaning given
-  /// to it.
+  /// The residual of balance() with these columns; empty if a column cannot have its meaning.
   std::optional<double> residual(const std::string& columns)
   {
     try {
@@ -55,10 +54,10 @@ class ColumnTrial {
     }
     return balance();
   }
-  /// The columns with which the forces on grains add up best, within the tolerance of the format.
+  /// The columns with the smallest residual; empty if it exceeds the tolerance of the format.
   std::optional<ColumnFit> best()
   {
-    constexpr double digits = 1e-6;  // of texts: by less, none is better than another
+    constexpr double digits = 1e-6;  // smaller differences of residuals are round-off of the text
     std::optional<ColumnFit> fit;
     for (const auto& columns : dialect_.others(header_)) {
       const auto found = residual(columns);
@@ -69,10 +68,11 @@ class ColumnTrial {
   }
 
  private:
-  /// | F - sum of contact forces - m g | relative to the median of the grains' largest contact force:
-  /// its median over the moving grains with contacts (over all where none moves), since some may touch
-  /// walls. A shared acceleration alone makes a half vanish: with it, the third quartile. Nothing where
-  /// there are no forces on grains, no contact force, a row that names no grain, or too few grains.
+  /// Residual of Newton's law, | F - sum of contact forces - m g |, relative to the median of the
+  /// grains' largest contact forces. It is the median over moving grains with contacts (over all
+  /// grains if none moves), because some grains may touch walls. If g is itself a median, it makes
+  /// the residual of half the grains vanish; then it is the third quartile. Empty without forces on
+  /// grains or contact forces, if a row names an unknown grain, or with too few grains.
   std::optional<double> balance() const
   {
     if (grains_.force.empty()) return std::nullopt;
@@ -101,7 +101,7 @@ class ColumnTrial {
     return std::isfinite(ratio) ? std::optional(ratio) : std::nullopt;
   }
 
-  /// The median of each component, where contacts leave these forces over.
+  /// Median, by component, of the accelerations by forces that contacts do not explain.
   Vec3 shared_acceleration(const std::vector<std::size_t>& touched,
                            const std::vector<Vec3>& left_over) const
   {
@@ -116,10 +116,10 @@ class ColumnTrial {
     return shared;
   }
 
-  /// Grains of a base do not balance.
+  /// True for grains whose forces should balance: not for the immobile grains of a base.
   bool moves(std::size_t grain) const { return none_moves_ || !grains_.velocity[grain].isZero(0); }
 
-  /// The mass, or what grows like it.
+  /// The mass of a grain, or a quantity proportional to it (radius cubed).
   double weight(std::size_t grain) const
   {
     if (!grains_.mass.empty()) return grains_.mass[grain];
@@ -156,8 +156,8 @@ class DumpArchive : public Archive {
   const ArchiveFacts& facts() const override { return facts_; }
   std::string columns() const override { return columns_text_; }
   std::vector<std::string> remarks() const override { return dumps_.remarks(); }
-  /// From the first moments that tell, of the files opened again. Where gravity or masses are not
-  /// known, gravity is the acceleration that most grains share once contacts are taken off.
+  /// Opens the files again and uses the first frame that decides. If gravity or masses are unknown,
+  /// gravity is the median acceleration after subtraction of the contact forces.
   std::optional<ColumnFit> fitting_columns(const std::optional<Vec3>& gravity) const override
   try {
     constexpr std::size_t rows_at_most = 100'000;  // a second or two
@@ -174,7 +174,7 @@ class DumpArchive : public Archive {
       if (fits || best) return best;
     }
     return std::nullopt;
-  } catch (const FormatError&) {  // a column of words, or damage
+  } catch (const FormatError&) {  // a column contains words, or the file is damaged
     return std::nullopt;
   }
 
@@ -234,14 +234,14 @@ class DumpArchive : public Archive {
     }
     if (header.label == "ATOMS" && header.find("id"))
       throw FormatError(fmt::format(
-          "{}: these are grains (ITEM: ATOMS), and not contacts; name them with --grains, and the dump "
-          "local with --contacts",
+          "{}: these are grains (ITEM: ATOMS), not contacts; name this file with --grains, and the "
+          "dump local with --contacts",
           header.place));
     if (!columns_ || header.columns != header_.columns) {
       grains_have_forces_ = !moment.grains.force.empty();
       if (columns_text_.empty()) find_columns(header, moment);
       if (columns_text_.empty()) {
-        dumps_.contacts().read_rows({}, values_);  // a header that does not fit its rows is damaged
+        dumps_.contacts().read_rows({}, values_);  // reports a header that does not match its rows
         moment.contacts = {};
         return;
       }
@@ -253,8 +253,8 @@ class DumpArchive : public Archive {
     columns_->fill(values_, header.place, moment.contacts);
   }
 
-  /// Finds the columns from forces where names and their number do not tell, or where these are
-  /// wrong. An unsure finding becomes a question.
+  /// Finds the columns from the balance of forces if names and number of columns leave them open,
+  /// or are contradicted by the balance. The result becomes a question for the user.
   void find_columns(const DumpHeader& header, ArchiveMoment& moment)
   {
     columns_text_ = dialect_.assumed(header, moment.grains);
@@ -264,14 +264,14 @@ class DumpArchive : public Archive {
     if (fit)
       columns_text_ = fit->columns;
     else if (others.size() == 1 && others[0].find('=') == std::string::npos)
-      columns_text_ = others[0];  // the only list of keywords that has as many columns
+      columns_text_ = others[0];  // only one list of keywords has this number of columns
     const auto why =
         fit ? fmt::format(
-                  "with these the forces on grains add up to within {:.2g} of a contact force",
+                  "with these the forces on grains balance to within {:.2g} of a contact force",
                   fit->residual)
             : fmt::format("as in {}", dialect_.example);
     moment.questions.push_back(
-        {fmt::format("what the {} columns of {} mean", header.columns.size(), header.place),
+        {fmt::format("the meaning of the {} columns of {}", header.columns.size(), header.place),
          "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
          fmt::format("they are {}; {}", fmt::join(header.columns, " "), why)});
   }
@@ -281,17 +281,17 @@ class DumpArchive : public Archive {
   std::vector<std::string> grain_files_, contact_files_;
   bool grains_have_forces_ = false;
   DumpGrains grains_;
-  std::string columns_text_;  // as --columns gives it
+  std::string columns_text_;  // value of --columns, given or found
   std::optional<ContactColumns> columns_;
-  std::string wall_text_;  // as --wall-columns gives it
+  std::string wall_text_;  // value of --wall-columns
   WallColumns wall_columns_;
   std::optional<WallRows> wall_rows_;
-  DumpHeader header_;  // of the contacts, whose columns were looked up
+  DumpHeader header_;  // header of the contacts for which columns_ is valid
   std::vector<std::vector<double>> values_;
   ArchiveFacts facts_;
 };
 
-/// The label of the first block, "ATOMS", and its columns; none where the file is no dump.
+/// Label ("ATOMS") and columns of the first block; no columns if the file is no dump.
 std::pair<std::string, std::vector<std::string>> label_and_columns(const FileStart& start)
 {
   std::pair<std::string, std::vector<std::string>> found{"ENTRIES", {}};

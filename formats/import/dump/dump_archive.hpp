@@ -10,30 +10,31 @@
 
 namespace grseg {
 
-/// How programs that write `dump custom` beside `dump local` differ: in the columns of the
-/// contacts. A mapping is the text of contact_columns.hpp.
+/// Differences of programs that write `dump custom` (grains) and `dump local` (contacts): the
+/// columns of the contacts. A mapping is a text as in contact_columns.hpp.
 struct DumpDialect {
-  /// The mapping without --columns; "" where the header does not show it.
+  /// The mapping without --columns; "" if the header leaves it open.
   std::string (*assumed)(const DumpHeader& contacts, const ArchiveGrains& grains);
-  /// The mapping that --columns means for these contacts. UsageError where it does not fit.
+  /// Converts the value of --columns to a mapping for these contacts. Throws UsageError if it does
+  /// not match them.
   std::string (*mapping)(const std::string& columns, const DumpHeader& contacts);
   /// Other possible values of --columns.
   std::vector<std::string> (*others)(const DumpHeader& contacts);
-  const char* example;  // of --columns
-  /// The meaning of --wall-columns for these rows of contacts with walls, as a mapping of WallRows;
-  /// null where the program writes no such rows.
+  const char* example;  // example of a value of --columns
+  /// Converts the value of --wall-columns to a mapping of WallRows for these rows of contacts with
+  /// walls; null if the program writes no such rows.
   std::string (*wall_mapping)(const std::string& columns, const DumpHeader& walls);
-  ArchiveFacts facts;  // common to all runs of the program
+  ArchiveFacts facts;  // facts common to all runs of the program
 };
 
-/// Facts of a program that re-evaluates contact forces at output, with velocities half a step later
-/// than the velocities that moved the grains.
+/// Facts of a program that evaluates contact forces again for output, with velocities half a step
+/// later than the velocities that moved the grains (imbalance.hpp).
 ArchiveFacts facts_of_late_forces(const std::string& program);
 
-/// Grains where a dump holds ATOMS, contacts where it holds other rows.
+/// Role of a dump: grains if its rows are labelled ATOMS, otherwise contacts.
 FileRole role_of_dump(const FileStart& start);
 
-/// The names of the columns of the first block.
+/// Names of the columns of a dump's first block.
 std::vector<std::string> columns_of_dump(const FileStart& start);
 
 std::unique_ptr<Archive> open_dumps(const ArchiveFiles& files, const DumpDialect& dialect);

@@ -11,7 +11,7 @@ namespace grseg {
 namespace {
 
 using Components = std::array<const char*, 3>;
-using Triple = std::array<int, 3>;  // places of columns, -1: the column is missing
+using Triple = std::array<int, 3>;  // indices of three columns; -1: the column is missing
 
 bool any(const Triple& columns)
 {
@@ -23,7 +23,7 @@ struct Positions {
   bool scaled, unwrapped;
 };
 
-/// Where a dump has several, the first ones are taken.
+/// Columns of positions; if a dump has several kinds, the first one of this list is read.
 constexpr Positions all_positions[] = {{{"x", "y", "z"}, false, false},
                                        {{"xs", "ys", "zs"}, true, false},
                                        {{"xu", "yu", "zu"}, false, true},
@@ -34,17 +34,18 @@ const Positions& positions_in(const DumpHeader& header)
   for (const auto& positions : all_positions)
     if (header.find(positions.names[0])) return positions;
   throw FormatError(
-      fmt::format("{}: the grains have no positions; one of the columns x, xu, xs, xsu is needed",
+      fmt::format("{}: the grains have no positions; the dump needs "
+                  "one of the columns x, xu, xs, xsu",
                   header.place));
 }
 
-/// The columns that are read of a block.
+/// Collects the columns to read from a block.
 struct Wanted {
   const DumpHeader& header;
   std::vector<std::size_t> columns;
-  std::vector<std::string> missing;  // components of vectors
+  std::vector<std::string> missing;  // names of missing components of vectors
 
-  /// The place in `columns` of the column of this name.
+  /// Adds the column of this name; returns its index in `columns`, -1 if it is missing.
   int add(std::string_view name)
   {
     const auto column = header.find(name);
@@ -52,7 +53,8 @@ struct Wanted {
     columns.push_back(*column);
     return static_cast<int>(columns.size()) - 1;
   }
-  /// The places of a vector, which needs the components that `needed` says.
+  /// Adds the three columns of a vector. Lists missing ones in `missing` if they are `needed` and
+  /// another component is present.
   Triple add(const Components& names, const std::array<bool, 3>& needed = {true, true, true})
   {
     const Triple found{add(names[0]), add(names[1]), add(names[2])};
@@ -67,8 +69,10 @@ void require_different(std::vector<std::size_t> columns, const DumpHeader& heade
   std::sort(columns.begin(), columns.end());
   const auto twice = std::adjacent_find(columns.begin(), columns.end());
   if (twice != columns.end())
-    throw UsageError(fmt::format("--wall-columns: column {} ({}) of {} would be two things at once",
-                                 *twice + 1, header.columns[*twice], header.place));
+    throw UsageError(
+        fmt::format("--wall-columns: column {} ({}) of {} has two meanings; check the "
+                    "first columns of the walls",
+                    *twice + 1, header.columns[*twice], header.place));
 }
 
 template <class Integer>
@@ -90,9 +94,11 @@ void DumpGrains::read(JoinedDumps& dump, ArchiveGrains& grains,
   Wanted wanted{header, {}, {}};
   const int id = wanted.add("id");
   if (id < 0)
-    throw FormatError(fmt::format(
-        "{}: the grains have no column id, by which contacts name them{}", header.place,
-        header.label == "ENTRIES" ? "; these are contacts (ITEM: ENTRIES), --contacts" : ""));
+    throw FormatError(fmt::format("{}: the grains have no column id, which contacts refer to{}",
+                                  header.place,
+                                  header.label == "ENTRIES" ? "; these are contacts (ITEM: "
+                                                              "ENTRIES), name them with --contacts"
+                                                            : ""));
   const int type = wanted.add(header.find("type") ? "type" : "typelabel");
   const int mass = wanted.add("mass"), radius = wanted.add("radius");
   const int diameter = radius < 0 ? wanted.add("diameter") : -1;

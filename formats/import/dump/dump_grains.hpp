@@ -7,21 +7,21 @@
 
 namespace grseg {
 
-/// Reads blocks of `dump custom` by the names that LAMMPS and LIGGGHTS give to their columns: id,
-/// type, mass, radius or diameter; x y z, or unwrapped xu yu zu, or xs ys zs in parts of the cell;
-/// ix iy iz; vx vy vz; omegax omegay omegaz; fx fy fz. id and positions are required, a missing
-/// component is 0 and listed as missing, other columns are ignored.
+/// Reads blocks of `dump custom` by the column names of LAMMPS and LIGGGHTS: id, type, mass, radius
+/// or diameter; x y z, or unwrapped xu yu zu, or xs ys zs as fractions of the cell; ix iy iz; vx vy
+/// vz; omegax omegay omegaz; fx fy fz. Id and positions are required. A missing component is 0 and
+/// listed in `missing`; other columns are ignored.
 class DumpGrains {
  public:
-  /// Reads the rows of the current block of `dump`, and `more` columns of them, by number.
+  /// Reads the rows of the current block of `dump`, and the columns `more` (numbers from 0).
   void read(JoinedDumps& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more = {});
-  /// The values of more[k] of these rows.
+  /// The values of column more[k] in these rows.
   const std::vector<double>& more(std::size_t k) const { return values_[own_ + k]; }
 
  private:
   TypeNames types_;
   std::vector<std::vector<double>> values_;
-  std::size_t own_ = 0;  // columns in front of `more`
+  std::size_t own_ = 0;  // number of columns in values_ that precede `more`
 };
 
 }  // namespace grseg

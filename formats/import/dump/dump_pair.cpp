@@ -14,7 +14,7 @@ using FilesByStep = std::multimap<std::int64_t, std::string>;
 
 constexpr std::string_view digits = "0123456789";
 
-/// None where what a file begins with has no header of a dump.
+/// The first step of a dump, from the beginning of the file; empty if this has no header of a dump.
 std::optional<std::int64_t> first_step_in(const std::string& start)
 {
   constexpr std::string_view item = "ITEM: TIMESTEP";
@@ -27,7 +27,7 @@ std::optional<std::int64_t> first_step_in(const std::string& start)
   return error == std::errc() ? std::optional(step) : std::nullopt;
 }
 
-/// True where two names differ in one number alone.
+/// True if two names differ in exactly one number.
 bool differ_in_one_number(const std::string& a, const std::string& b)
 {
   const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
@@ -45,13 +45,13 @@ void require_one_step(const std::string& file, const std::string& without_header
   DumpReader dump({file});
   if (dump.next() && dump.next())
     throw FormatError(fmt::format(
-        "{} has no header, which LAMMPS writes for the first processor alone, and {} has several steps, "
-        "so that its rows may be of any; write one file for each step (contacts.*.%.dump), or leave out "
-        "the %",
+        "{} has no header, because LAMMPS writes it only for the first processor, and {} has "
+        "several steps, so the step of the rows is unknown; write one file for each step "
+        "(contacts.*.%.dump), or leave out the %",
         without_header, file));
 }
 
-/// The file with the header of the step that the rows of `file` belong to; "" where there is none.
+/// The file that has the header for the rows of `file`; "" if there is none.
 std::string owner_of(const std::string& file, const FilesByStep& by_step)
 {
   for (const auto& [step, owner] : by_step)
@@ -59,7 +59,7 @@ std::string owner_of(const std::string& file, const FilesByStep& by_step)
   return "";
 }
 
-/// One list for each processor where as many files begin with each step; otherwise one list.
+/// A list of files per processor if every first step has equally many files; otherwise one list.
 std::vector<std::vector<std::string>> lists_of(const FilesByStep& by_step)
 {
   std::vector<std::vector<std::string>> lists(by_step.count(by_step.begin()->first));
@@ -82,20 +82,20 @@ void require_same_rows(const DumpHeader& a, const DumpHeader& b)
                        fmt::join(header.columns, " "));
   };
   throw FormatError(
-      fmt::format("{}, and {}: these files begin with the same step, but are not the parts of one "
-                  "dump; name one dump alone",
+      fmt::format("{}, and {}: these files begin with the same step, but are not parts of one "
+                  "dump; name the files of one dump only",
                   in_words(a), in_words(b)));
 }
 
-/// The files of a dump, by how they have to be read.
+/// The files of a dump, in the order in which they have to be read.
 struct DumpParts {
-  /// One list of files in order of their first steps or, where several processors wrote files that
-  /// begin with the same steps (with % in their names), one list for each of them.
+  /// One list of files in order of their first steps; or one list per processor, if several
+  /// processors wrote files that begin with the same steps (% in the name of the dump).
   std::vector<std::vector<std::string>> lists;
-  std::map<std::string, std::vector<std::string>> more_rows;  // as of JoinedDumps
+  std::map<std::string, std::vector<std::string>> more_rows;  // as JoinedDumps::more_rows_
 };
 
-/// FormatError where rows without a header may be of several steps.
+/// Sorts the files of a dump. Throws FormatError if the step of rows without a header is unknown.
 DumpParts parts_of_dump(const std::vector<std::string>& files)
 {
   constexpr std::size_t enough = 1024;
@@ -112,7 +112,7 @@ DumpParts parts_of_dump(const std::vector<std::string>& files)
   DumpParts parts;
   for (const auto& file : without_header) {
     const auto owner = owner_of(file, by_step);
-    if (owner.empty()) return {{files}, {}};  // told when it is read
+    if (owner.empty()) return {{files}, {}};  // the reader reports the missing header
     if (!parts.more_rows.contains(owner)) require_one_step(owner, file);
     parts.more_rows[owner].push_back(file);
   }
@@ -121,7 +121,7 @@ DumpParts parts_of_dump(const std::vector<std::string>& files)
   return parts;
 }
 
-/// From the first two blocks, read ahead of the import.
+/// Length of a time step, from the first two blocks; empty if they have no times.
 std::optional<double> step_by_times(const std::vector<std::string>& files)
 {
   JoinedDumps dump(files);
@@ -132,14 +132,14 @@ std::optional<double> step_by_times(const std::vector<std::string>& files)
   return (*second.time - *first.time) / static_cast<double>(second.step - first.step);
 }
 
-/// How many jobs have written it, by the headers alone.
+/// Number of jobs that wrote a dump, found from the headers.
 int jobs_of(const std::vector<std::string>& files)
 {
   DumpOfJobs dump(files);
   int jobs = 1;
   try {
     while (dump.next()) jobs += dump.begins_job ? 1 : 0;
-  } catch (const FormatError&) {  // to be reported when it is that block's turn
+  } catch (const FormatError&) {  // the import reports the error when it reads that block
   }
   return jobs;
 }
@@ -171,8 +171,8 @@ bool JoinedDumps::next()
   header_.rows = rows;
   if (ended != nullptr)
     throw TruncatedArchive(fmt::format(
-        "{}: this part of the dump ends behind step {}, and {} goes on; copy it again, or leave out "
-        "the incomplete moment with --drop-incomplete",
+        "{}: this part of the dump ends behind step {}, and {} goes on; copy it again, or leave "
+        "out the incomplete frame with --drop-incomplete",
         ended->header().place, ended->header().step, header_.place));
   return true;
 }
@@ -211,14 +211,14 @@ DumpPair::DumpPair(const std::vector<std::string>& grain_files,
   }
   try {
     step_ = step_by_times(grain_files);
-  } catch (const FormatError&) {  // to be reported when it is that block's turn
+  } catch (const FormatError&) {  // the import reports the error when it reads that block
   }
 }
 
 bool DumpPair::next()
 {
   const auto step_of = [](const DumpOfJobs& dump) {
-    return [&dump] { return static_cast<double>(dump.at.second); };
+    return [&dump] { return std::to_string(dump.at.second); };
   };
   const auto next_grains = [this] {
     grains_are_new_ = !grains_.waits;
@@ -230,12 +230,12 @@ bool DumpPair::next()
   while (matching_.next({next_grains, step_of(grains_)},
                         {[this] { return advance(contacts_); }, step_of(contacts_)}, order, true)) {
     if (!walls_ || walls_have_it()) return any_ = true;
-    without_walls_.add(static_cast<double>(grains_.at.second));
+    without_walls_.add(std::to_string(grains_.at.second));
   }
   if (!any_ && without_walls_.count > 0)
     throw FormatError(fmt::format(
-        "no step is in all dumps: steps {} of grains and contacts are not in the dump of contacts with "
-        "walls; write them at the same steps",
+        "no step is in all dumps: steps {} of grains and contacts are not in the dump of contacts "
+        "with walls; write all dumps at the same steps",
         fmt::join(without_walls_.first, ", ")));
   return false;
 }
@@ -249,7 +249,7 @@ bool DumpPair::walls_have_it()
   return more_walls_ && walls_->at == grains_.at;
 }
 
-/// To the next block, or again to one that waits.
+/// Advances to the next block, unless the current block is to be used again.
 bool DumpPair::advance(DumpOfJobs& dump)
 {
   if (std::exchange(dump.waits, false)) return true;

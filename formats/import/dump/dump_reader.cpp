@@ -19,7 +19,7 @@ bool is_blank(char c)
   return c == ' ' || c == '\t';
 }
 
-/// Empty where one of the words is not a finite number.
+/// The numbers in a line; empty if one of the words is not a finite number.
 std::vector<double> numbers_in(std::string_view line)
 {
   std::vector<double> numbers;
@@ -43,7 +43,7 @@ std::string_view DumpReader::next_line(const char* what)
   return source_.line();
 }
 
-/// A line without its end is the last of its file.
+/// Throws unless a line was read (`there`) and is complete. Only the last line lacks a line end.
 void DumpReader::require_line(bool there, const char* what)
 {
   if (there && source_.line_is_whole()) return;
@@ -56,13 +56,14 @@ void DumpReader::require_line(bool there, const char* what)
   }
   rows_left_ = 0;
   throw TruncatedArchive(
-      fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete moment "
+      fmt::format("{}: the archive ends in {}; copy it again, or leave out the incomplete frame "
                   "with --drop-incomplete",
                   place, what));
 }
 
-/// A job that was killed leaves its last block incomplete; the next one goes on behind it, in the same
-/// file or in another. Its first line may follow a part of a row.
+/// Throws TruncatedArchive: a new block begins at column `begin` of the line, before all rows of
+/// the last block were read. A killed job leaves its last block incomplete, and the next job writes
+/// behind it, in the same file (perhaps behind a part of a row) or in another.
 void DumpReader::fail_at_next_block(std::size_t begin)
 {
   next_block_ = begin;
@@ -70,12 +71,12 @@ void DumpReader::fail_at_next_block(std::size_t begin)
   throw TruncatedArchive(
       fmt::format(
           "{}: {} of {} rows of step {} are missing where a new block begins (a job that was "
-          "killed, and the next one?); leave out the incomplete moment with --drop-incomplete",
+          "killed, and the next one?); leave out the incomplete frame with --drop-incomplete",
           source_.place(), missing, header_.rows, header_.step),
       true);
 }
 
-/// Rows that nobody reads may be incomplete where another block follows.
+/// Skips the rows that were not read. They may be incomplete if another block follows.
 void DumpReader::skip_rows()
 {
   for (; rows_left_ > 0; --rows_left_) {
@@ -111,7 +112,7 @@ bool DumpReader::next()
   return true;
 }
 
-/// From the line that the source stands at to the one above the rows.
+/// Reads the header from the current line to the line of column names, the last one above the rows.
 void DumpReader::read_header()
 {
   header_ = {};
@@ -126,7 +127,8 @@ void DumpReader::read_header()
     });
     if (!is_text)
       source_.fail(
-          "this is not text: a binary dump? Turn it into text with binary2txt, which comes with LAMMPS");
+          "this is not text: a binary dump? Turn it into text "
+          "with binary2txt, which comes with LAMMPS");
     if (!line.starts_with(item_word))
       source_.fail(
           fmt::format("{} found where a text dump has a line 'ITEM: ...'", in_quotes(line)));
@@ -136,7 +138,7 @@ void DumpReader::read_header()
       for (const auto name : words_of(item.substr(label.size())))
         header_.columns.emplace_back(name);
       if (!has_step || !has_box) source_.fail("TIMESTEP or BOX BOUNDS is missing above the rows");
-      if (header_.columns.empty()) source_.fail("names no columns");
+      if (header_.columns.empty()) source_.fail("the line names no columns");
       header_.label = label;
       return;
     }
@@ -172,11 +174,11 @@ void DumpReader::read_item(std::string_view item, std::string& label)
   }
 }
 
-/// "BOX BOUNDS abc origin pp ff pp"; then a line per axis: an edge of the cell, and a coordinate of its
-/// origin.
+/// Reads the cell in the form "BOX BOUNDS abc origin pp ff pp"; then a line per axis: three
+/// components of an edge of the cell, and a coordinate of its origin.
 void DumpReader::read_general_box(std::string_view item)
 {
-  constexpr double round_off = 1e-12;  // of a turned cell
+  constexpr double round_off = 1e-12;  // relative round-off of a rotated cell
   const auto letters = words_of(item);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto value = numbers_in(next_line("a header"));
@@ -195,17 +197,18 @@ void DumpReader::read_general_box(std::string_view item)
 void DumpReader::refuse_tilted_cell() const
 {
   source_.fail(
-      "the cell is tilted; only rectangular cells are imported: write the run in one (`change_box all "
-      "ortho`, where nothing tilts it)");
+      "the cell is tilted; only rectangular cells are imported: if no shear tilts the cell, use "
+      "`change_box all ortho` before writing the dump");
 }
 
-/// "BOX BOUNDS pp ff pp" or, tilted, "BOX BOUNDS xy xz yz pp ff pp"; then a line per axis.
+/// Reads the cell in the form "BOX BOUNDS pp ff pp" or, if tilted, "BOX BOUNDS xy xz yz pp ff pp";
+/// then a line per axis.
 void DumpReader::read_box(std::string_view item)
 {
   const auto words = words_of(item);
   const std::size_t letters = words.size() > 2 && words[2] == "xy" ? 5 : 2;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Dumps from before 2010 have no letters: then nothing is periodic as far as is known.
+    // Dumps from before 2010 have no letters; then no axis is taken as periodic.
     if (letters + axis >= words.size()) continue;
     header_.periodic[axis] = words[letters + axis] == "pp";
     header_.shrinks[axis] = words[letters + axis].find_first_of("sm") != std::string_view::npos;
@@ -237,7 +240,7 @@ void DumpReader::read_rows(std::span<const std::size_t> wanted,
   }
 }
 
-/// The number in a word that is not simply a number to its end.
+/// Reads a type, or a word that from_chars refuses as a number. Throws FormatError if it is none.
 double DumpReader::number_in(std::string_view word, std::size_t column, TypeNames* names)
 {
   double value = 0;

@@ -15,40 +15,39 @@
 
 namespace grseg {
 
-/// The lines above the rows of one block of a text dump.
+/// The header of one block (frame) of a text dump: the lines above its rows.
 struct DumpHeader {
   std::int64_t step = 0;
   std::optional<double> time;
   std::size_t rows = 0;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   std::array<bool, 3> periodic{};
-  std::array<bool, 3> shrinks{};     // the bounds follow the grains (boundary s or m)
-  std::string label;                 // of the rows: ATOMS, ENTRIES
-  std::vector<std::string> columns;  // names
-  std::string file, place;           // "atoms.dump", "atoms.dump, line 1"
+  std::array<bool, 3> shrinks{};     // true: the bounds are fitted to the grains (boundary s or m)
+  std::string label;                 // label of the rows: ATOMS, ENTRIES
+  std::vector<std::string> columns;  // names of the columns
+  std::string file, place;           // file, and its line: "atoms.dump", "atoms.dump, line 1"
 
-  /// 0-based, of the column of this name.
+  /// Number, from 0, of the column of this name; empty if there is none.
   std::optional<std::size_t> find(std::string_view name) const;
 };
 
-/// A column of types, whose words stand for numbers.
+/// The column of types, which may contain words (TypeNames).
 struct TypeColumn {
-  int place = -1;  // among the wanted columns; -1: there is none
+  int place = -1;  // index among the wanted columns; -1: there is no such column
   TypeNames* names = nullptr;
 };
 
-/// The blocks of text dumps (`dump custom`, `dump local`) of LAMMPS and LIGGGHTS, by the grammar of
-/// LAMMPS' doc/src/dump.rst:
+/// Reads the blocks of text dumps (`dump custom`, `dump local`) of LAMMPS and LIGGGHTS, by the
+/// grammar of LAMMPS' doc/src/dump.rst:
 ///   [ITEM: UNITS] [ITEM: TIME] ITEM: TIMESTEP, ITEM: NUMBER OF label, ITEM: BOX BOUNDS,
 ///   ITEM: label names of columns, rows,
-/// label being ATOMS, ENTRIES or what `dump_modify label` makes of it.
-/// FormatError naming file, line and remedy where a block is damaged, TruncatedArchive where the
-/// archive ends in it or where the block of the next job begins.
+/// where label is ATOMS, ENTRIES or the label set by `dump_modify label`. Throws FormatError naming
+/// file, line and remedy if a block is damaged, TruncatedArchive if the archive ends in the block,
+/// or if the first block of the next job begins in it.
 class DumpReader {
  public:
   explicit DumpReader(std::vector<std::string> files) : source_(std::move(files)) {}
-  /// Reads files that hold nothing but rows of the block with this header, all of which can be
-  /// read.
+  /// Reads files with nothing but rows of a block with this header; next() must not be called.
   DumpReader(std::vector<std::string> files, DumpHeader header)
       : source_(std::move(files)), header_(std::move(header)), has_rows_alone_(true)
   {
@@ -57,11 +56,11 @@ class DumpReader {
   /// Advances to the next block, skipping rows that were not read; false at the end.
   bool next();
   const DumpHeader& header() const { return header_; }
-  /// From ITEM: UNITS, which only the first block has.
+  /// The units by ITEM: UNITS, which only the first block has.
   const std::optional<std::string>& units() const { return units_; }
 
-  /// Reads the rows of the block: column `wanted[k]` of all rows is added to values[k]. Other columns
-  /// are counted but not parsed.
+  /// Reads the rows of the block and appends column `wanted[k]` of each row to values[k]. Other
+  /// columns are skipped; a row must have as many columns as the header.
   void read_rows(std::span<const std::size_t> wanted, std::vector<std::vector<double>>& values,
                  const TypeColumn& types = {});
 
@@ -83,7 +82,7 @@ class DumpReader {
   DumpHeader header_;
   std::optional<std::string> units_;
   std::size_t rows_left_ = 0;
-  // Where the first line of the next block begins in the line that the source stands at.
+  // Position in the current line at which the next block begins; empty if none begins there.
   std::optional<std::size_t> next_block_;
   bool has_rows_alone_ = false;
 };

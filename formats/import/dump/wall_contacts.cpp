@@ -30,7 +30,7 @@ void append(ArchiveContacts& contacts, std::int64_t grain, std::int32_t wall, co
     if (!stated->empty()) stated->push_back(nan);
 }
 
-/// "floor" of "f_floor[1]"; "" for another name.
+/// The name of a wall, "floor" from "f_floor[1]"; "" for other names.
 std::string wall_of(const std::string& column)
 {
   constexpr std::string_view first = "[1]";
@@ -44,7 +44,8 @@ std::size_t first_column(const std::string& word, const DumpHeader& header)
   const auto number = number_of(word);
   if (number > 0 && number + 7 <= header.columns.size()) return number - 1;
   throw UsageError(
-      fmt::format("--wall-columns: {} is not the first of eight columns of {}, which are {}",
+      fmt::format("--wall-columns: {} is not the first of eight "
+                  "columns of {}, which has the columns {}",
                   in_quotes(word), header.place, fmt::join(header.columns, " ")));
 }
 
@@ -74,8 +75,8 @@ void WallColumns::look_up(const DumpHeader& grains)
     const auto equals = part.find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError(fmt::format(
-          "--wall-columns: {} is not of the form NAME=COLUMN, the first of eight of fix wall/gran, "
-          "as in floor=f_floor[1]",
+          "--wall-columns: {} is not of the form NAME=COLUMN, with the first of the eight columns "
+          "of fix wall/gran, as in floor=f_floor[1]",
           in_quotes(part)));
     take(part.substr(0, equals), first_column(part.substr(equals + 1), grains));
   }
@@ -102,9 +103,9 @@ void WallColumns::add_to(ArchiveMoment& moment, const DumpGrains& columns) const
       const double radius = grains.radius.empty() ? v[7] : grains.radius[g];
       if (v[0] != 1 || std::abs(v[7] - radius) > 1e-4 * radius || branch.norm() > 2 * radius)
         throw FormatError(fmt::format(
-            "{}: the eight columns of wall {} hold {:g} for grain {}, which are not flag, force, "
+            "{}: the eight columns of wall {} are {:g} for grain {}, which are not flag, force, "
             "contact point and radius of `fix wall/gran ... contacts`; pass --wall-columns none if "
-            "they are something else",
+            "these columns have another meaning",
             moment.place, walls_[wall], fmt::join(v, " "), grains.id[g]));
       append(moment.contacts, grains.id[g], static_cast<std::int32_t>(wall), force, branch);
     }
@@ -139,8 +140,8 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
     const auto found = place.find(grain);
     if (found == place.end())
       throw FormatError(fmt::format(
-          "{}: {:g} in the column of id is not among the grains of step {}; say what the "
-          "columns mean with --wall-columns",
+          "{}: {:g} in the column of id is not among the grains of step {}; set the meaning of the "
+          "columns with --wall-columns",
           header.place, of(id)[row], header.step));
     const Vec3 centre = of(x).empty() ? moment.grains.position[found->second] : triple(x, row);
     std::int32_t wall = rows_of[grain]++;
@@ -148,7 +149,7 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
       const double number = (of(mesh).empty() ? 0 : of(mesh)[row]) * 1e6 + of(triangle)[row];
       if (!(number >= 0 && number < 2e9))
         throw FormatError(
-            fmt::format("{}: {:g} is not a number of a wall; say what the columns mean "
+            fmt::format("{}: {:g} is not the number of a wall; set the meaning of the columns "
                         "with --wall-columns",
                         header.place, number));
       wall = static_cast<std::int32_t>(number);

@@ -10,23 +10,23 @@
 
 namespace grseg {
 
-/// Contacts with walls in the dump of grains: the eight columns f_NAME[1] to f_NAME[8] of LAMMPS'
-/// `fix NAME all wall/gran ... contacts`. The first is 1 where the grain touches the wall, then
-/// follow the force of the wall on the grain, the contact point, and the radius.
+/// Reads contacts with walls from the dump of grains: the eight columns f_NAME[1] to f_NAME[8] of
+/// LAMMPS' `fix NAME all wall/gran ... contacts`. The first is 1 if the grain touches the wall;
+/// then follow the force of the wall on the grain, the contact point, and the radius.
 class WallColumns {
  public:
-  /// `text`: "floor=f_floor[1],sides=27", the first of eight columns of each wall; "none"; or ""
-  /// where walls are recognised by the names of their columns.
+  /// `text` is "floor=f_floor[1],sides=27", with the first of the eight columns of each wall; or
+  /// "none"; or "", to recognise walls by the names of their columns.
   explicit WallColumns(const std::string& text) : text_(text) {}
 
-  /// UsageError where a column is not there.
+  /// Finds the columns of the walls. Throws UsageError if one is missing.
   void look_up(const DumpHeader& grains);
-  /// Columns of the dump of grains, 0-based, eight for each wall.
+  /// Numbers, from 0, of the columns to read from the dump of grains: eight for each wall.
   const std::vector<std::size_t>& wanted() const { return wanted_; }
-  /// Names of the walls, by number.
+  /// Names of the walls, in order of their numbers.
   const std::vector<std::string>& walls() const { return walls_; }
-  /// Adds the contacts; `grains` has read these columns as `more`. FormatError where they do not hold
-  /// what they should.
+  /// Adds the contacts, from the columns that `grains` has read as `more`. Throws FormatError if
+  /// they do not contain flag, force, contact point and radius.
   void add_to(ArchiveMoment& moment, const DumpGrains& grains) const;
 
  private:
@@ -35,14 +35,14 @@ class WallColumns {
   std::vector<std::size_t> wanted_;
 };
 
-/// Contacts with walls as rows of a dump of their own: LIGGGHTS' `compute wall/gran/local`. A mapping
-/// gives their columns: "id=9,force=10,point=1,centre=4,mesh=7,triangle=8".
-///   id             of the grain
-///   force          of the wall on the grain, three columns from this one on (or fx fy fz)
-///   point          where they touch, likewise (px py pz)
-///   centre         of the grain there (x y z), else its position in the dump of grains
-///   mesh triangle  number the walls: mesh times a million plus triangle; without them the rows of a
-///                  grain are walls 0, 1, ...
+/// Reads contacts with walls from a separate dump: LIGGGHTS' `compute wall/gran/local`. A mapping
+/// names the columns: "id=9,force=10,point=1,centre=4,mesh=7,triangle=8".
+///   id             id of the grain
+///   force          force of the wall on the grain: first of three columns (or fx fy fz)
+///   point          contact point: first of three columns (or px py pz)
+///   centre         centre of the grain (or x y z); default: its position in the dump of grains
+///   mesh triangle  numbers of mesh and triangle; the wall's number is a million times mesh plus
+///                  triangle. Without them the rows of a grain are walls 0, 1, ...
 class WallRows {
  public:
   explicit WallRows(const std::string& mapping);

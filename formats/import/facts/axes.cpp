@@ -13,7 +13,8 @@
 namespace grseg {
 namespace {
 
-/// Along a unit vector; exact, signs of zeros included, where that is one of the axes.
+/// Component of a vector along a unit vector. Exact, including the sign of a zero, if the unit
+/// vector is one of the axes.
 double component(const Vec3& vector, const Vec3& direction)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -21,7 +22,7 @@ double component(const Vec3& vector, const Vec3& direction)
   return vector.dot(direction);
 }
 
-/// A gravity vector is written with a few digits: what differs by less is meant to be the same.
+/// Smallest difference of two angles that counts, rad. Gravity vectors are written with few digits.
 constexpr double smallest_turn = 1e-3;
 
 Vec3 down_a_slope(double gravity, double slope)
@@ -30,7 +31,7 @@ Vec3 down_a_slope(double gravity, double slope)
   return {gravity * std::sin(angle), -gravity * std::cos(angle), 0};
 }
 
-/// How far apart the centres of the grains lie along each of the archive's axes.
+/// Extent of the grains' centres along each of the archive's axes.
 Vec3 extent_of(const ArchiveGrains& grains)
 {
   Eigen::AlignedBox3d box;
@@ -50,9 +51,10 @@ Axes::Axes(const std::string& letters)
   const auto axis = [&](char letter) {
     const auto number = std::string("xyz").find(letter);
     if (letters.size() != 2 || letters[0] == letters[1] || number == std::string::npos)
-      throw UsageError(fmt::format(
-          "--axes '{}' are not two of the letters x, y, z: along the base and away from it",
-          letters));
+      throw UsageError(
+          fmt::format("--axes '{}' is not two different letters of x, y, z: the "
+                      "axis along the base and the axis away from it",
+                      letters));
     return Vec3(Vec3::Unit(static_cast<Eigen::Index>(number)));
   };
   const Vec3 x = axis(letters.empty() ? ' ' : letters[0]), y = axis(letters.back());
@@ -62,7 +64,7 @@ Axes::Axes(const std::string& letters)
 void Axes::turn_to_slope(const Vec3& gravity, double slope)
 {
   const Vec2 now = components(gravity).head<2>(), wanted = down_a_slope(1, slope).head<2>();
-  // The angle from what gravity should be in the axes to what it is.
+  // Angle from the wanted direction of gravity to its present direction in these axes.
   const double turn = std::atan2(wanted.x() * now.y() - wanted.y() * now.x(), wanted.dot(now));
   if (std::abs(turn) < smallest_turn) return;
   auto& [x, y, z] = direction_;
@@ -107,8 +109,8 @@ void require_towards_the_base(const Vec3& gravity, const Orientation& orientatio
   constexpr double along = 1e-3;
   if (g.isZero(0) || std::abs(g.y()) > along * g.norm()) return;
   throw UsageError(fmt::format(
-      "gravity ({:g}, {:g}, {:g}) has no part towards the base along --axes {}, whose second letter is "
-      "the axis away from it; name the axes of the flow (xy, xz)",
+      "gravity ({:g}, {:g}, {:g}) has no component towards the base: the second letter of --axes "
+      "{} must be the axis away from the base; name the axes of the flow (xy, xz)",
       gravity.x(), gravity.y(), gravity.z(), letters));
 }
 
@@ -116,7 +118,7 @@ void require_open_normal(const ArchiveMoment& moment, int normal)
 {
   if (!moment.periodic[static_cast<std::size_t>(normal)]) return;
   throw UsageError(fmt::format(
-      "{}: the cell is periodic along {}, the normal of the base, where layers end at the base "
+      "{}: the cell is periodic along {}, the normal of the base, but a bed ends at the base "
       "and at the surface; name the axes with --axes (along the base, away from it), or write "
       "the archive with an open boundary there",
       moment.place, "xyz"[normal]));
@@ -139,7 +141,7 @@ Orientation orientation_of(const std::string& letters, const GravityText& gravit
   if (gravity.magnitude) {
     if (!slope)
       throw UsageError(
-          "--gravity is a magnitude: add the inclination of the base with --slope, or give the "
+          "--gravity is a magnitude: add the inclination of the base with --slope, or pass the "
           "vector, as in 3.8,-9.0,0");
     return {axes, down_a_slope(*gravity.magnitude, *slope)};
   }
@@ -171,27 +173,28 @@ int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs
   if (discs && asked == 3)
     throw UsageError(
         "--dimension 3, but the grains are discs, which move in a plane; leave the option out, or "
-        "pass --grains-are spheres if that is what they are");
+        "pass --grains-are spheres if the grains are spheres");
   const auto& grains = first.grains;
   if (asked == 3 || grains.size() == 0) return asked.value_or(2);
   const auto across = *Axes(axes).axis_of(2);
   const Vec3 extent = extent_of(grains);
   if (!(extent[across] > thickness_of_a_plane(grains))) return 2;
   const auto apart =
-      fmt::format("{}: grains lie up to {:g} apart across the plane of the flow, --axes {}",
+      fmt::format("{}: grains are up to {:g} apart across the plane of the flow, --axes {}",
                   first.place, extent[across], axes);
   if (const auto plane = plane_of(grains); !plane.empty())
-    throw UsageError(fmt::format("{}, but in a plane of the axes: pass --axes {}{}", apart, plane,
-                                 discs ? "" : " for a flow in it, or --dimension 3"));
+    throw UsageError(fmt::format("{}, but they lie in another plane: pass --axes {}{}", apart,
+                                 plane, discs ? "" : " for a flow in it, or --dimension 3"));
   if (discs)
     throw UsageError(fmt::format(
         "{}, but discs move in a plane: name it with --axes (xy, xz), or pass --grains-are spheres "
-        "if that is what they are",
+        "if the grains are spheres",
         apart));
   if (asked == 2)
-    throw UsageError(fmt::format(
-        "{}, so this is not a flow in two dimensions; leave --dimension 2 out, or name the plane",
-        apart));
+    throw UsageError(
+        fmt::format("{}, so this is not a flow in two dimensions; leave "
+                    "--dimension 2 out, or name the plane with --axes",
+                    apart));
   return 3;
 }
 

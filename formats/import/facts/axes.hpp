@@ -10,27 +10,29 @@
 
 namespace grseg {
 
-/// The axes of a flow within the axes of an archive: down the slope (x), normal to the base, upward
-/// (y), and across (z = x cross y). They are always right-handed and only ever turned, never
-/// mirrored, so that spins and oblique contacts keep their sense.
+/// The axes of a flow, as directions in the axes of an archive: x down the slope, y normal to the
+/// base and upward, z = x cross y across the flow. They are right-handed: rotated, never mirrored,
+/// so that the sense of rotations and of oblique contacts does not change.
 class Axes {
  public:
-  /// Two of the letters x, y, z, e.g. "xz": along the base and away from it. UsageError otherwise.
+  /// `letters` are two of x, y, z, e.g. "xz": the archive's axes along the base and away from it.
+  /// Throws UsageError for other text.
   explicit Axes(const std::string& letters = "xy");
 
-  /// Turned about z such that gravity, as far as it lies across z, has the direction
-  /// (sin slope, -cos slope); in degrees.
+  /// Rotates the axes about z, so that the components of gravity normal to z have the direction
+  /// (sin slope, -cos slope). `slope` in degrees.
   void turn_to_slope(const Vec3& gravity, double slope);
-  /// Turned half about y: x and z the other way, y as it was.
+  /// Rotates the axes by 180 degrees about y: reverses x and z.
   void look_from_behind();
 
-  /// The components of a vector of the archive.
+  /// Components, in these axes, of a vector of the archive.
   Vec3 components(const Vec3& vector) const;
-  /// Counter-clockwise as it is seen with x to the right and y up: in x-z that is -omega_y, for
-  /// right-handed axes x, z, -y.
+  /// Angular velocity about x cross y: positive if counter-clockwise with x to the right and y up.
+  /// For --axes xz it is -omega_y, because x, z, -y are right-handed.
   double spin_in_plane(const Vec3& angular_velocity) const;
 
-  /// The archive's axis that x, y or z (0, 1, 2) lies along, if any; and whether in its direction.
+  /// The archive's axis that is parallel to x, y or z (0, 1, 2), if any; is_forward() is true if
+  /// both point the same way.
   std::optional<int> axis_of(int direction) const;
   bool is_forward(int direction) const;
 
@@ -38,20 +40,21 @@ class Axes {
   std::array<Vec3, 3> direction_;
 };
 
-/// UsageError where the cell of `moment` is periodic along `normal`, an axis of the archive.
+/// Throws UsageError if the cell of `moment` is periodic along `normal`, an axis of the archive.
 void require_open_normal(const ArchiveMoment& moment, int normal);
 
-/// "9.8" or "3.8,-9.0,0". UsageError otherwise.
+/// Gravity, a magnitude ("9.8") or a vector ("3.8,-9.0,0"). Other text: UsageError.
 struct GravityText {
   std::optional<double> magnitude;
   std::optional<Vec3> vector;
 };
 GravityText parse_gravity(const std::string& text);
 
-/// Axes adjusted to gravity, and gravity in them. If x points uphill, the flow is looked at from
-/// behind; with a slope the axes are turned until gravity has this slope; a magnitude needs a slope
-/// and turns nothing. UsageError where the slope is missing, or where gravity is not in the plane
-/// of a flow in two dimensions; in three it may have a component across.
+/// The axes of the flow and gravity in these axes. orientation_of() reverses x and z if x points
+/// uphill. If gravity is a vector and a slope is given, it rotates the axes until gravity has this
+/// slope. If gravity is a magnitude, a slope is required and the axes are not rotated. Throws
+/// UsageError if this slope is missing, or if gravity is not in the plane of a flow in two
+/// dimensions; in three dimensions it may have a component across the flow.
 struct Orientation {
   Axes axes;
   Vec3 gravity = Vec3::Zero();
@@ -59,21 +62,21 @@ struct Orientation {
 Orientation orientation_of(const std::string& letters, const GravityText& gravity,
                            std::optional<double> slope, int dimension);
 
-/// UsageError unless gravity, as given in the archive's axes, has a part along the normal.
-/// `letters` are the value of --axes.
+/// Throws UsageError unless gravity has a component along the normal of the base. `gravity` in the
+/// archive's axes, for the message; `letters` is the value of --axes.
 void require_towards_the_base(const Vec3& gravity, const Orientation& orientation,
                               const std::string& letters);
 
-/// Dimension of the flow, by the grains of the first moment: 2 where their centres lie in the plane
-/// of `axes` (two letters), to a tenth of the largest radius, 3 where they do not and are spheres.
-/// `asked` takes spheres that lie in a plane for a flow in space. UsageError where it contradicts
-/// the grains, where discs lie apart, or where spheres lie in another plane of the archive's axes,
-/// which may be the one that was meant.
+/// Dimension of the flow, from the grains of the first frame: 2 if their centres lie in the plane
+/// of `axes` (two letters), to a tenth of the largest radius; 3 if they do not and are spheres.
+/// `asked` is the value of --dimension; 3 treats spheres in a plane as a flow in space. Throws
+/// UsageError if `asked` contradicts the grains, if discs do not lie in the plane, or if spheres
+/// lie in another plane of the archive's axes, which may be the intended one.
 int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs,
                  std::optional<int> asked);
 
-/// The plane of two axes in which grains lie, to a tenth of the largest radius, as --axes would name
-/// it; "" where they lie in none.
+/// The plane of two of the archive's axes in which all grains lie, to a tenth of the largest
+/// radius, as a value of --axes; "" if there is none.
 std::string plane_of(const ArchiveGrains& grains);
 
 }  // namespace grseg

@@ -80,7 +80,7 @@ void tell(const ToldCell& cell, ArchiveMoment& moment)
   const bool differs =
       !cell.periodic || std::abs(cell.low - low) > digits || std::abs(cell.high - high) > digits;
   if (moment.periodic[axis] && differs)
-    throw UsageError(fmt::format("--cell {}, but the archive says {}: leave the option out",
+    throw UsageError(fmt::format("--cell {}, but the archive states {}: leave the option out",
                                  cell.text(), ToldCell{cell.axis, low, high, true}.text()));
   moment.low[cell.axis] = cell.low;
   moment.high[cell.axis] = cell.high;
@@ -101,7 +101,7 @@ std::vector<WallPlane> parse_walls(const std::vector<std::string>& texts)
     for (const auto& other : walls)
       if (other.name == wall.name || (other.axis == wall.axis && other.position == wall.position))
         throw UsageError(fmt::format(
-            "--wall names {} ({}) and {} ({}): each wall has a name and a place of its own",
+            "--wall names {} ({}) and {} ({}): each wall needs its own name and position",
             other.name, other.place(), wall.name, wall.place()));
     walls.push_back(wall);
   }

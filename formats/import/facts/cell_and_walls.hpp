@@ -10,41 +10,40 @@
 
 namespace grseg {
 
-/// The cell along one of the archive's axes, in the archive's units: --cell x:0:0.4 or, where grains
-/// that leave at one end come back at the other, --cell x:0:0.4:periodic.
+/// Bounds of the cell along one of the archive's axes, in the archive's units: --cell x:0:0.4, or,
+/// if the cell is periodic, --cell x:0:0.4:periodic.
 struct ToldCell {
-  int axis = 0;  // 0, 1, 2
+  int axis = 0;  // axis of the archive: 0, 1, 2
   double low = 0, high = 0;
   bool periodic = false;
 
-  std::string text() const;  // "x:0:0.4"
+  std::string text() const;  // text as of --cell: "x:0:0.4"
 };
 
-/// The cells of all --cell options. UsageError where one is not of that form, or an axis is told
-/// twice.
+/// Reads all --cell options. Throws UsageError for another form, or if two name the same axis.
 std::vector<ToldCell> parse_cells(const std::vector<std::string>& texts);
 
-/// Gives a moment this cell. UsageError where the archive says that it is periodic otherwise.
+/// Sets the cell of a frame. Throws UsageError if the archive states another periodic cell.
 void tell(const ToldCell& cell, ArchiveMoment& moment);
 
-/// A plane wall across one of the archive's axes, in the archive's units: --wall floor=z:0.
+/// A plane wall normal to one of the archive's axes, in the archive's units: --wall floor=z:0.
 struct WallPlane {
   std::string name;
-  int axis = 0;  // 0, 1, 2
+  int axis = 0;  // axis of the archive: 0, 1, 2
   double position = 0;
 
-  std::string place() const;  // "z = 0"
+  std::string place() const;  // text for messages: "z = 0"
 };
 
-/// The walls of all --wall options. UsageError where one is not of the form NAME=AXIS:POSITION, or
-/// where two have the same name or place.
+/// Reads all --wall options. Throws UsageError if one does not have the form NAME=AXIS:POSITION, or
+/// if two have the same name or position.
 std::vector<WallPlane> parse_walls(const std::vector<std::string>& texts);
 
-/// The lowest and the highest place of walls across an axis; nothing where there are no two.
+/// Lowest and highest position of walls normal to an axis; empty for fewer than two walls.
 std::optional<std::pair<double, double>> between_walls(const std::vector<WallPlane>& walls,
                                                        int axis);
 
-/// "floor (z = 0), left (x = -10)"
+/// The walls as text for messages: "floor (z = 0), left (x = -10)".
 std::string list_of(const std::vector<WallPlane>& walls);
 
 }  // namespace grseg

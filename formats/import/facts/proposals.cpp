@@ -21,7 +21,7 @@ bool is_at_rest(const ArchiveGrains& grains, std::size_t g)
   return g < grains.velocity.size() && grains.velocity[g].isZero(0);
 }
 
-/// The sum of the contact forces on every grain.
+/// Sum of the contact forces on each grain.
 std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
 {
   const auto row = rows_by_id(moment.grains);
@@ -35,7 +35,7 @@ std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
   return sum;
 }
 
-/// The grains of one type.
+/// Number, number at rest, and diameters of the grains of one type.
 struct OfType {
   std::size_t count = 0, resting = 0;
   Range diameters;
@@ -60,7 +60,7 @@ std::string range_in_words(const Range& range)
   return first == last ? first : first + " to " + last;
 }
 
-/// "type 1: 300 grains of diameters 0.9 to 1.1"
+/// Describes the types of the grains: "type 1: 300 grains, 0.9 to 1.1 wide".
 std::string in_words(const ArchiveGrains& grains, const std::vector<bool>& resting)
 {
   const auto types = types_of(grains, resting);
@@ -77,7 +77,7 @@ std::string in_words(const ArchiveGrains& grains, const std::vector<bool>& resti
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// "1-35,70", if there are not too many ranges.
+/// The ids of grains at rest, "1-35,70"; "" for more than 12 ranges.
 std::string ids_at_rest(const ArchiveGrains& grains, const std::vector<bool>& resting)
 {
   constexpr std::size_t most_ranges = 12;
@@ -158,7 +158,7 @@ Question question_of_base(const ArchiveGrains& grains, const std::vector<bool>& 
     question.reason = in_words(grains, resting);
   } else if (const auto ids = ids_at_rest(grains, resting); !ids.empty()) {
     question.option = "--boundary-ids " + ids;
-    question.reason = "they are at rest, others are not";
+    question.reason = "these grains are at rest, the others are not";
   } else {
     question.reason = "or --boundary-ids IDS";
   }
@@ -168,8 +168,8 @@ Question question_of_base(const ArchiveGrains& grains, const std::vector<bool>& 
 Question question_of_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
                              const std::string& diameters)
 {
-  Question question{"how species are told apart", "--species grains=all",
-                    "all as one; diameters are " + diameters +
+  Question question{"how species differ", "--species grains=all",
+                    "one species; diameters are " + diameters +
                         "; or --small TYPES --large TYPES, --split-diameter D, or --species "
                         "NAME=TYPES for each"};
   std::vector<std::int32_t> mobile;
@@ -206,7 +206,7 @@ std::optional<Question> question_of_axes(const ArchiveMoment& moment, bool in_sp
   gravity->cwiseAbs().maxCoeff(&normal);
   if (normal == 1) return std::nullopt;
   return Question{"the axes of the flow", normal == 2 ? "--axes xz" : "--axes yx",
-                  "along the base, away from it; gravity is nearest to the second"};
+                  "along the base, away from it; gravity is nearest to the second axis"};
 }
 
 }  // namespace grseg

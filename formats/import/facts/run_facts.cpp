@@ -19,13 +19,13 @@ bool good_mass(const ArchiveGrains& grains, std::size_t g)
   return !grains.mass.empty() && grains.mass[g] > 0 && std::isfinite(grains.mass[g]);
 }
 
-/// Area of a disc or volume of a sphere.
+/// Area of a disc, or volume of a sphere.
 double content(double radius, bool discs)
 {
   return discs ? grain_volume<2>(radius) : grain_volume<3>(radius);
 }
 
-/// Largest deviation of mass/content among the grains that have a mass, relative.
+/// Largest relative difference of the densities (mass/content) of grains that have a mass.
 double spread_of_density(const ArchiveGrains& grains, bool discs)
 {
   Range density;
@@ -44,24 +44,24 @@ std::optional<bool> discs_by_mass(const ArchiveGrains& grains)
   return std::nullopt;
 }
 
-/// The value on the command line, which must agree with the archive's, or else the archive's.
+/// The value on the command line, otherwise in the archive. Throws UsageError if the two differ.
 std::optional<double> either(const std::optional<double>& archive,
                              const std::optional<double>& given, const char* option)
 {
   if (archive && given && std::abs(*archive - *given) > 1e-6 * std::abs(*archive))
-    throw UsageError(fmt::format("{} is {:g}, but the archive says {:.10g}; leave the option out",
+    throw UsageError(fmt::format("{} is {:g}, but the archive states {:.10g}; leave the option out",
                                  option, *given, *archive));
   return given ? given : archive;
 }
 
-/// True for discs. An option wins over the answer that masses suggest, but must agree with a
-/// statement of the archive.
+/// True for discs; empty if neither --grains-are nor the archive states the shape. Throws
+/// UsageError if they contradict each other.
 std::optional<bool> discs_or_spheres(const ArchiveFacts& archive, const ImportSettings& settings)
 {
   if (!settings.grains) return archive.discs;
   const bool discs = choose(*settings.grains, "--grains-are", grain_words);
   if (archive.discs && discs != *archive.discs)
-    throw UsageError(fmt::format("--grains-are {}, but the archive says {}; leave the option out",
+    throw UsageError(fmt::format("--grains-are {}, but the archive states {}; leave the option out",
                                  *settings.grains, *archive.discs ? "discs" : "spheres"));
   return discs;
 }
@@ -71,26 +71,26 @@ std::optional<std::string> units_of(const ArchiveFacts& archive, const ImportSet
   if (!archive.units) return settings.units;
   const bool known = *archive.units == "si" || *archive.units == "cgs";
   if (settings.units && known && *settings.units != *archive.units)
-    throw UsageError(fmt::format("--units {}, but the archive says {}; leave the option out",
+    throw UsageError(fmt::format("--units {}, but the archive states {}; leave the option out",
                                  *settings.units, *archive.units));
   return settings.units || !known ? settings.units : archive.units;
 }
 
-/// UsageError where the archive's masses follow from another density than --density.
+/// Throws UsageError if the archive's masses correspond to another density than --density.
 void require_density(const ArchiveGrains& grains, double density, bool discs)
 {
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!good_mass(grains, g)) continue;
     const double found = grains.mass[g] / content(grains.radius[g], discs);
     if (std::abs(found - density) > 1e-3 * density)
-      throw UsageError(fmt::format(
-          "--density is {:g}, but the masses in the archive make it {:.6g} (grain {}); leave the "
-          "option out",
-          density, found, grains.id[g]));
+      throw UsageError(
+          fmt::format("--density is {:g}, but the masses in the archive correspond "
+                      "to {:.6g} (grain {}); leave the option out",
+                      density, found, grains.id[g]));
   }
 }
 
-/// Facts by one, with questions for what is missing.
+/// Finds the facts of a run one by one, and asks questions for missing ones.
 class FactFinder {
  public:
   FactFinder(const ArchiveFacts& archive, const FirstLook& look, const ImportSettings& settings,
@@ -109,7 +109,7 @@ class FactFinder {
     find_base();
     facts_.dimension = dimension_of(look_.all, facts_.axes, facts_.discs, settings_.dimension);
     find_orientation(direction);
-    // At once, whatever else is open, unless the axes may be others.
+    // This error is thrown before open questions are asked, unless an answer may change the axes.
     const auto normal = facts_.orientation.axes.axis_of(1);
     if (normal && (settings_.axes || (direction && direction->vector)))
       require_open_normal(look_.all, *normal);
@@ -121,7 +121,7 @@ class FactFinder {
   {
     const auto units = units_of(archive_, settings_);
     if (!units && archive_.units)
-      questions_.ask({fmt::format("what its units {} are", *archive_.units),
+      questions_.ask({fmt::format("the size of its units '{}'", *archive_.units),
                       "--units LENGTH:TIME:MASS", "in m, s, kg"});
     else if (!units)
       questions_.ask(
@@ -158,10 +158,10 @@ class FactFinder {
           1 + spread_of_density(grains, *discs), *discs ? "spheres" : "discs");
     if (!discs)
       questions_.ask(
-          {"whether grains are discs or spheres",
-           by_mass ? "--grains-are spheres" : "--grains-are WHAT",
-           by_mass ? "masses grow as the cube of the radius; discs of two densities may do so, too"
-                   : "discs or spheres: LAMMPS makes spheres without density/disc, also in two "
+          {"the shape of the grains", by_mass ? "--grains-are spheres" : "--grains-are WHAT",
+           by_mass ? "masses grow as the cube of the radius, as of "
+                     "spheres (or of discs of two densities)"
+                   : "discs or spheres: without density/disc LAMMPS simulates spheres, also in two "
                      "dimensions"});
     facts_.discs = discs.value_or(true);
     facts_.density = either(archive_.density, settings_.density, "--density");
@@ -178,13 +178,13 @@ class FactFinder {
     if (settings_.species.boundary || settings_.species.boundary_ids ||
         !look_.all.grains.fixed.empty())
       return;
-    if (look_.resting.empty()) return;  // without walls it is asked beside the origin
+    if (look_.resting.empty()) return;  // without walls, ask_for_the_bed() asks (scan.cpp)
     const auto question = question_of_base(look_.all.grains, look_.resting);
-    // With walls there need not be a base, unless there are grains that never move.
+    // A flow between walls may have no base grains; ask only if some grains never move.
     if (facts_.walls.empty() || question.option != "--boundary none") questions_.ask(question);
   }
 
-  /// Where it is missing, what is proposed.
+  /// Gravity by the command line or the archive; if both lack it, the proposed vector, if any.
   std::optional<GravityText> gravity()
   {
     if (settings_.gravity) return parse_gravity(*settings_.gravity);
@@ -196,7 +196,7 @@ class FactFinder {
         resting_grains(grains, nullptr));
     if (suggested)
       questions_.ask({"gravity", "--gravity " + gravity_option(*suggested),
-                      "what the forces on the grains suggest; or its magnitude and --slope"});
+                      "suggested by the forces on the grains; or its magnitude and --slope"});
     else
       questions_.ask({"gravity", "--gravity GX,GY,GZ", "or --gravity G --slope DEGREES"});
     if (!suggested) return std::nullopt;
@@ -216,13 +216,13 @@ class FactFinder {
     facts_.axes = axes->option.substr(axes->option.size() - 2);
   }
 
-  /// Where gravity or its slope is asked for, the axes are as they were named.
+  /// Finds the axes of the flow, which are not rotated if gravity or the slope is unknown.
   void find_orientation(const std::optional<GravityText>& gravity)
   {
     auto slope = settings_.slope;
     if (gravity && gravity->magnitude && !slope)
       questions_.ask({"the inclination of the base", "--slope DEGREES",
-                      "--gravity is a magnitude; or give the vector, as in --gravity 3.8,-9.0,0"});
+                      "--gravity is a magnitude; or pass the vector, as in --gravity 3.8,-9.0,0"});
     if (!gravity || gravity->magnitude) slope = slope.value_or(0);
     facts_.orientation = orientation_of(facts_.axes, gravity.value_or(GravityText{1, std::nullopt}),
                                         slope, facts_.dimension);
@@ -255,12 +255,12 @@ std::vector<double> masses_of(const ArchiveGrains& grains, const RunFacts& facts
     if (good_mass(grains, g))
       mass[g] = grains.mass[g];
     else if (grains.mass.empty() && !facts.density)
-      mass[g] = 1;  // it is asked for
+      mass[g] = 1;  // meaningless: a question asks for the density
     else if (facts.density)
       mass[g] = *facts.density * content(grains.radius[g], facts.discs);
     else
-      throw FormatError(fmt::format("grain {} has the mass {:g}; give its --density", grains.id[g],
-                                    grains.mass[g]));
+      throw FormatError(fmt::format("grain {} has the mass {:g}; pass the density with --density",
+                                    grains.id[g], grains.mass[g]));
   }
   return mass;
 }

@@ -11,36 +11,36 @@
 
 namespace grseg {
 
-/// Facts of the whole of an imported run, in the archive's units; never guessed.
+/// Facts of an imported run, in the archive's units.
 struct RunFacts {
   double step = 0;
   int dimension = 2;
-  std::string axes = "xy";  // letters, before they are turned to a slope
+  std::string axes = "xy";  // letters of the axes, before the rotation to a slope
   Orientation orientation;
   bool discs = true;               // false: spheres
-  std::vector<std::string> walls;  // straight ones that bound the flow, in words
-  std::optional<double> density;   // needed where grains have no mass
-  std::string doubt_of_masses;     // a sentence where they suggest other grains than were told
+  std::vector<std::string> walls;  // descriptions of the straight walls that bound the flow
+  std::optional<double> density;   // density of the grains, needed if they have no mass
+  std::string doubt_of_masses;     // a sentence if the masses contradict `discs`
   Units units;
   std::string units_as_given;
 };
 
-/// Moments from which facts are found.
+/// Frames of the archive from which facts are found.
 struct FirstLook {
-  const ArchiveMoment& all;          // a moment with all grains, perhaps without contacts
-  const ArchiveMoment& moment;       // the first one
-  const std::vector<bool>& resting;  // grains of `all` that seem to be the base (proposals.hpp)
+  const ArchiveMoment& all;          // frame with all grains, perhaps without contacts
+  const ArchiveMoment& moment;       // early frame with contacts
+  const std::vector<bool>& resting;  // true for each grain of `all` at rest (proposals.hpp)
 };
 
-/// Takes each fact from the archive or the command line. Grains are discs if their masses grow as the
-/// square of their radii, and spheres if they lie in no plane, unless something else is told. What is missing is added
-/// to `questions`, and the fact is then the one that is proposed, or of no meaning. UsageError where
-/// archive and command line contradict each other.
+/// Finds each fact in the archive or on the command line. Unless stated, grains are spheres if they
+/// do not lie in a plane, and discs if their masses grow as the square of their radii. For a
+/// missing fact a question is added to `questions`; the fact is then the proposed one, or
+/// meaningless. Throws UsageError if archive and command line contradict each other.
 RunFacts collect_facts(const ArchiveFacts& archive, const FirstLook& look,
                        const ImportSettings& settings, Questions& questions);
 
-/// Mass of every grain: the archive's own, or density times area or volume. FormatError where a
-/// grain has neither.
+/// Mass of every grain, from the archive, or density times area or volume. Throws FormatError if a
+/// grain has no positive mass and the density is unknown.
 std::vector<double> masses_of(const ArchiveGrains& grains, const RunFacts& facts);
 
 }  // namespace grseg

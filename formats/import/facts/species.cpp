@@ -23,17 +23,17 @@ std::optional<std::int64_t> whole(std::string_view text)
   return number;
 }
 
-/// A species on the command line, and the range of diameters of its grains.
+/// A species named on the command line, and the range of diameters of its grains.
 struct Named {
   std::string option, name, types;
   TypeList list;
   double given = 0;  // nominal diameter; 0: not given
   Range diameters = {};
+  bool holds_all = false;  // true: TYPES of --species is the word "all"
 
-  bool holds_all() const { return types == "all"; }
   bool contains(const ArchiveGrains& grains, std::size_t g) const
   {
-    return holds_all() || list.contains(grains.type[g]);
+    return holds_all || list.contains(grains.type[g]);
   }
   double nominal() const { return given > 0 ? given : diameters.middle(); }
 };
@@ -55,8 +55,9 @@ Named parse(const std::string& text, const ArchiveGrains& grains)
       !(parse_finite(text.substr(colon + 1), diameter) && diameter > 0))
     throw UsageError(fmt::format("--species {}: {} is not a diameter", in_quotes(text),
                                  in_quotes(text.substr(colon + 1))));
-  return {"--species " + name, name, types,
-          TypeList(types == "all" ? "none" : types, "--species", grains), diameter};
+  const bool all = types == "all";
+  const TypeList list(all ? "none" : types, "--species", grains);
+  return {"--species " + name, name, types, list, diameter, {}, all};
 }
 
 std::vector<Named> parse_all(const std::vector<std::string>& texts, const ArchiveGrains& grains)
@@ -66,13 +67,14 @@ std::vector<Named> parse_all(const std::vector<std::string>& texts, const Archiv
     all.push_back(parse(text, grains));
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
       if (all[k].name == all.back().name)
-        throw UsageError(
-            fmt::format("--species names {} twice; list all its types in one", all.back().name));
+        throw UsageError(fmt::format("--species names {} twice; list all its types in one option",
+                                     all.back().name));
   }
   return all;
 }
 
-/// The place in `all` of the one species that the grain belongs to; `none` says that it is in none.
+/// Index in `all` of the species of the grain. Throws UsageError if it belongs to no species
+/// (`none` is part of this message) or to several.
 std::size_t place_of(const ArchiveGrains& grains, std::size_t g, const std::vector<Named>& all,
                      const char* none)
 {
@@ -80,19 +82,20 @@ std::size_t place_of(const ArchiveGrains& grains, std::size_t g, const std::vect
   const auto found = std::find_if(all.begin(), all.end(), is_it);
   if (found == all.end())
     throw UsageError(
-        fmt::format("type {} of grain {} is {}; every type of a mobile grain must be in one",
+        fmt::format("type {} of grain {} is {}; every type of a "
+                    "mobile grain must be in one species",
                     grains.type_word(grains.type[g]), grains.id[g], none));
   const auto other = std::find_if(found + 1, all.end(), is_it);
   if (other != all.end())
     throw UsageError(fmt::format(
-        "grain {} is in {} and in {}; every type of a mobile grain must be in one alone",
+        "grain {} is in {} and in {}; every type of a mobile grain must be in one species only",
         grains.id[g], found->option, other->option));
   return static_cast<std::size_t>(found - all.begin());
 }
 
 std::string in_words(const Named& species)
 {
-  if (species.holds_all()) return fmt::format("{} all grains", species.name);
+  if (species.holds_all) return fmt::format("{} all grains", species.name);
   return fmt::format("{} types {}", species.name, species.types);
 }
 
@@ -132,7 +135,7 @@ std::vector<bool> boundary_grains(const ArchiveGrains& grains, const SpeciesSett
   return boundary;
 }
 
-/// The diameter that parts two sizes, half-way; none where they are not far apart.
+/// The diameter half-way between two sizes far apart (species.hpp); empty if there are none.
 std::optional<double> gap_between_sizes(std::vector<double> diameter)
 {
   std::sort(diameter.begin(), diameter.end());
@@ -150,7 +153,7 @@ std::optional<double> gap_between_sizes(std::vector<double> diameter)
   return (diameter[widest - 1] + diameter[widest]) / 2;
 }
 
-/// --species says all that the options of two sizes would say.
+/// Throws UsageError if --species is combined with an option for two sizes.
 void require_alone(const SpeciesSettings& settings)
 {
   const std::pair<const char*, bool> of_two[] = {
@@ -162,12 +165,12 @@ void require_alone(const SpeciesSettings& settings)
   for (const auto& [option, given] : of_two)
     if (given)
       throw UsageError(
-          fmt::format("{} does not go with --species; give types and nominal diameters as in "
-                      "--species small=1:0.005 --species large=2:0.01",
+          fmt::format("{} cannot be combined with --species; write types and nominal diameters as "
+                      "in --species small=1:0.005 --species large=2:0.01",
                       option));
 }
 
-/// "0.0048 to 0.0052: 120, ...": numbers of values in ten equal bins; empty bins are left out.
+/// Histogram of ten equal bins, without empty bins, as text: "0.0048 to 0.0052: 120, ...".
 std::string histogram(std::vector<double> values)
 {
   if (values.empty()) return "no grains";
@@ -242,10 +245,10 @@ SpeciesFound assign_named_species(const ArchiveGrains& grains, const std::vector
 {
   auto all = parse_all(texts, grains);
   if (grains.type.empty() &&
-      !std::all_of(all.begin(), all.end(), [](const Named& s) { return s.holds_all(); }))
+      !std::all_of(all.begin(), all.end(), [](const Named& s) { return s.holds_all; }))
     throw UsageError(
-        "--species names types, but the grains of the archive have no types; --species NAME=all "
-        "takes them as one species");
+        "--species names types, but the grains of the archive have no "
+        "types; --species NAME=all makes them one species");
   std::vector<std::size_t> place(grains.size());
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (!boundary[g])
@@ -254,8 +257,8 @@ SpeciesFound assign_named_species(const ArchiveGrains& grains, const std::vector
   for (const auto& species : all)
     if (species.given == 0 && species.diameters.high == 0)
       throw UsageError(
-          fmt::format("--species {0}={1}: no mobile grain is of these types; leave it out, or give "
-                      "its diameter, {0}={1}:DIAMETER",
+          fmt::format("--species {0}={1}: no mobile grain has these types; leave the option out, "
+                      "or add the diameter, {0}={1}:DIAMETER",
                       species.name, species.types));
 
   std::vector<std::size_t> order(all.size());

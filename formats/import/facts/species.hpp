@@ -13,34 +13,34 @@
 
 namespace grseg {
 
-/// How the command line separates the species.
+/// Options of the command line that define the species.
 struct SpeciesSettings {
-  std::vector<std::string> named;                     // assign_named_species(); else
-  std::optional<std::string> small, large, boundary;  // types
+  std::vector<std::string> named;                     // values of --species; empty: two sizes
+  std::optional<std::string> small, large, boundary;  // lists of types
   std::optional<std::string> boundary_ids;
   std::optional<double> split_diameter;
-  std::optional<double> small_diameter, large_diameter;  // nominal
+  std::optional<double> small_diameter, large_diameter;  // nominal diameters
 };
 
-/// Species of every grain, a list of the species of mobile grains, and in words how they were
-/// found.
+/// Species of every grain, the list of the species of mobile grains, and texts that describe how
+/// base and sizes were found.
 struct SpeciesFound {
   std::vector<Species> species;
   SpeciesList list;  // nominal diameters as given, in the archive's units; 0: not given
   std::string base, sizes;
 };
 
-/// Assigns species. Boundary grains have a type or id that was named, or the archive marks them as
-/// fixed; all others are of a named species, or small or large: by type, by --split-diameter, or,
-/// where none is given, by two sizes far apart: the widest step between diameters is a factor of
-/// 1.2 or more, and on either side of it they differ by less than the root of that factor.
-/// OpenQuestions with a histogram of diameters where there are no such two sizes.
+/// Assigns species. Boundary grains have a named type or id, or are marked as fixed by the archive.
+/// Other grains belong to a named species, or are small or large: by type, by --split-diameter, or
+/// by two sizes far apart. Sizes are far apart if the widest gap between successive diameters is a
+/// factor of 1.2 or more, and the diameters on either side differ by less than the square root of
+/// that factor. Throws OpenQuestions with a histogram of diameters if there are no two such sizes.
 SpeciesFound assign_species(const ArchiveGrains& grains, const SpeciesSettings& settings);
 
-/// Numbers and ranges such as "1,4-9", or "none".
+/// A list of numbers and ranges such as "1,4-9", or "none".
 class NumberList {
  public:
-  /// UsageError naming `option` where the text is not such a list.
+  /// Throws UsageError naming `option` if the text is not such a list.
   NumberList(const std::string& text, const std::string& option);
   bool contains(std::int64_t number) const;
 
@@ -48,25 +48,26 @@ class NumberList {
   std::vector<std::pair<std::int64_t, std::int64_t>> ranges_;  // first and last
 };
 
-/// Types of grains as an option lists them: numbers and ranges or, where the archive
-/// has words for them, these words, separated by commas; or "none".
+/// The types of grains in the value of an option: numbers and ranges, or words if the archive names
+/// its types by words; separated by commas. Or "none".
 class TypeList {
  public:
-  /// UsageError naming `option` where the text is not such a list, or where no grain has the word.
+  /// Throws UsageError naming `option` if the text is not such a list, or if no grain has a type of
+  /// this name.
   TypeList(const std::string& text, const std::string& option, const ArchiveGrains& grains);
   bool contains(std::int32_t type) const;
 
  private:
   NumberList numbers_;
-  std::vector<bool> named_;  // by type
+  std::vector<bool> named_;  // by type: true: the list contains its name
 };
 
-/// Species of all grains that are not `boundary`, any number by type, each as --species gives it:
-/// NAME=TYPES or NAME=TYPES:DIAMETER, where TYPES are a list as above or "all", and DIAMETER is
-/// nominal, in the archive's units. They are in order of nominal diameters. A diameter that is not given
-/// is the mean of the smallest and the largest of the species. UsageError where a text is not of the
-/// form above, a name does not fit files and tables, a species has neither grains nor a diameter, or
-/// the type of a mobile grain is in no species or in several.
+/// Assigns any number of named species to all grains that are not `boundary`. Each text is a value
+/// of --species: NAME=TYPES or NAME=TYPES:DIAMETER, where TYPES is a TypeList or "all", and
+/// DIAMETER is the nominal diameter in the archive's units (default: mean of the smallest and
+/// largest diameter). Species are sorted by nominal diameter. Throws UsageError if a text does not
+/// have this form, a name is not allowed in files and tables, a species has neither grains nor a
+/// diameter, or the type of a mobile grain is in no species or in several.
 SpeciesFound assign_named_species(const ArchiveGrains& grains, const std::vector<bool>& boundary,
                                   const std::vector<std::string>& texts);
 

@@ -42,10 +42,10 @@ Units parse_units(const std::string& text)
   if (const auto known = find_choice(text, unit_words)) return *known;
   const auto value = finite_numbers(text, ':');
   if (value.size() != 3 || !(*std::min_element(value.begin(), value.end()) > 0))
-    throw UsageError(fmt::format(
-        "--units '{}' is not si, cgs, or LENGTH:TIME:MASS, what the archive's units are in m, s "
-        "and kg, as in 0.005:0.02259:2.5e-5",
-        text));
+    throw UsageError(
+        fmt::format("--units '{}' is not si, cgs, or LENGTH:TIME:MASS, the archive's units in m, s "
+                    "and kg, as in 0.005:0.02259:2.5e-5",
+                    text));
   return {value[0], value[1], value[2]};
 }
 

@@ -8,7 +8,7 @@
 
 namespace grseg {
 
-/// The archive's units in SI; mass is in kg also in two dimensions.
+/// The archive's units in SI. The unit of mass is in kg, also in two dimensions.
 struct Units {
   double length = 1, time = 1, mass = 1;  // m, s, kg
 
@@ -23,8 +23,8 @@ struct Units {
 
 inline constexpr Choice<Units> unit_words[] = {{"si", {}},
                                                {"cgs", {.length = 0.01, .time = 1, .mass = 0.001}}};
-/// One of these words, or LENGTH:TIME:MASS in SI, as in 0.005:0.02259:2.5e-5, which dimensionless
-/// units (lj) need. UsageError otherwise.
+/// Reads units: "si", "cgs", or LENGTH:TIME:MASS in SI, as in 0.005:0.02259:2.5e-5, which
+/// dimensionless units (lj) need. Throws UsageError for other text.
 Units parse_units(const std::string& text);
 
 }  // namespace grseg

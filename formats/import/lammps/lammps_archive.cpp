@@ -21,7 +21,8 @@ std::string assumed_columns(const DumpHeader& header, const ArchiveGrains& grain
   return header.columns.size() >= recipe_columns && !grains.force.empty() ? recipe : "";
 }
 
-/// First what is most likely: of some that fit equally well, as without friction, the first counts.
+/// Possible values of --columns, the most likely ones first. If several fit equally well, as
+/// without friction, the first one is used.
 std::vector<std::string> other_columns(const DumpHeader& header)
 {
   std::vector<std::string> others;
@@ -45,19 +46,19 @@ bool is_of_lammps(const FileStart& start)
   return role_of_dump(start) == FileRole::grains || !are_of_liggghts(columns_of_dump(start));
 }
 
-/// `dump custom` of grains beside `dump local` of contacts, as LAMMPS writes them
-/// (doc/src/dump.rst, compute_pair_local.rst, pair_gran.rst). Contacts come from two computes with
-/// the same `cutoff radius`:
+/// Opens a `dump custom` of grains and a `dump local` of contacts of LAMMPS (doc/src/dump.rst,
+/// compute_pair_local.rst, pair_gran.rst). The contacts come from two computes with the same
+/// `cutoff radius`:
 ///   compute pr all property/local patom1 patom2 cutoff radius
 ///   compute pl all pair/local dist fx fy fz p1 p2 p3 cutoff radius
 ///   dump c all local N contacts.dump index c_pr[1] c_pr[2] c_pl[1] c_pl[2] ... c_pl[7]
-/// fx fy fz are the NORMAL part of the force on patom1 alone, p1 p2 p3 the tangential part; the
-/// force is their sum. Names like c_pl[3] carry no meaning, so --columns gives it; without it the
-/// ten columns above are assumed, which the grains' balance verifies. Columns that are named by what
-/// they hold (contact_columns.hpp) are recognised. dx dy dz, whose sign depended on tags until 12Jun2025,
-/// are never used: the branch is x_patom1 - x_patom2. Contacts of fix wall/gran are not in any dump
-/// local, but with its keyword `contacts` they may be columns of the dump of grains
-/// (wall_contacts.hpp).
+/// fx fy fz are only the NORMAL part of the force on patom1, p1 p2 p3 its tangential part; the
+/// force is their sum. Names like c_pl[3] have no meaning, so --columns sets it. Without --columns
+/// the ten columns above are assumed, and the grains' force balances verify this. Columns with
+/// meaningful names are recognised (contact_columns.hpp). dx dy dz are never used, because their
+/// sign depended on tags until 12Jun2025: the branch is x_patom1 - x_patom2. Contacts of fix
+/// wall/gran are in no dump local, but with its keyword `contacts` they may be columns of the dump
+/// of grains (wall_contacts.hpp).
 std::unique_ptr<Archive> open_lammps(const ArchiveFiles& files)
 {
   static const DumpDialect dialect{

@@ -20,11 +20,11 @@ struct Block {
   std::size_t columns;
 };
 
-/// In the order of the source, not of the manual.
+/// Blocks of columns, in the order of LIGGGHTS' source. (The manual lists another order.)
 constexpr Block blocks[] = {
     {"pos", 6},
     {"vel", 6},
-    {"id", 3},  // the third: 1 across a periodic boundary
+    {"id", 3},  // two ids, and a flag: 1 if the contact crosses a periodic boundary
     {"force", 3},
     {"force_normal", 3},
     {"force_tangential", 3},
@@ -46,7 +46,7 @@ constexpr std::pair<const char*, const char*> presets[] = {
      "contactPoint"},
 };
 
-/// Lists worth trying where a preset does not fit; the first is what versions before 2 wrote.
+/// Lists of keywords to try if no preset fits; versions before 2 wrote the first one.
 constexpr const char* often[] = {"pos,id,force,torque,history,contactArea",
                                  "pos,id,force,delta",
                                  "id,force",
@@ -64,7 +64,7 @@ std::string keywords_of(const std::string& columns)
   return columns;
 }
 
-/// Where each block begins, from 1; 0: it is not there.
+/// First column of each block, from 1; 0: the block is missing.
 struct Layout {
   std::array<std::size_t, std::size(blocks)> first{};
   std::size_t columns = 0;
@@ -106,7 +106,7 @@ Layout layout_of(const std::string& columns)
   return layout;
 }
 
-/// "c_cp[13]" is column 13 of a compute; 0: the name does not tell.
+/// The number of a compute's column, 13 from "c_cp[13]"; 0 for other names.
 std::size_t number_in(const std::string& name)
 {
   const auto open = name.find('[');
@@ -114,29 +114,29 @@ std::size_t number_in(const std::string& name)
   return number_of(name.substr(open + 1, name.size() - open - 2));
 }
 
-/// Columns of the dump by columns of the compute.
+/// Map from columns of the compute to columns of the dump.
 class Dumped {
  public:
   explicit Dumped(const DumpHeader& header) : count_(header.columns.size())
   {
     for (const auto& name : header.columns) numbers_.push_back(number_in(name));
-    // `index` counts rows and is not the compute's.
+    // The column `index` counts rows and does not belong to the compute.
     const bool has_index = count_ > 1 && header.find("index");
     const auto unknown = std::count(numbers_.begin(), numbers_.end(), 0U);
     numbered_ = count_ > 0 && unknown == (has_index ? 1 : 0);
     if (numbered_ && has_index) --count_;
   }
-  /// From 1; 0: it was not dumped.
+  /// Column of the dump, from 1, for a column of the compute; 0 if it was not dumped.
   std::size_t column(std::size_t of_compute) const
   {
     if (!numbered_) return of_compute <= count_ ? of_compute : 0;
     const auto at = std::find(numbers_.begin(), numbers_.end(), of_compute);
     return at == numbers_.end() ? 0 : static_cast<std::size_t>(at - numbers_.begin()) + 1;
   }
-  /// How many are of the compute.
+  /// Number of the dump's columns that belong to the compute.
   std::size_t count() const { return count_; }
-  /// True for the number of columns that a compute has with these keywords: with all, or with a
-  /// selection by name.
+  /// True if a compute with this number of columns may have written the dump, which has all of them
+  /// or a selection that its column names show.
   bool fits(std::size_t columns) const
   {
     const auto last = numbered_ ? *std::max_element(numbers_.begin(), numbers_.end()) : count_;
@@ -149,7 +149,7 @@ class Dumped {
   bool numbered_ = false;
 };
 
-/// True where the ids and the force of both mappings are in equal columns.
+/// True if both mappings have ids and force in the same columns.
 bool are_at_the_same_places(const std::string& keywords, const std::string& named,
                             const DumpHeader& contacts)
 {
@@ -163,7 +163,7 @@ bool are_at_the_same_places(const std::string& keywords, const std::string& name
   return places_of(liggghts_mapping(keywords, contacts)) == places_of(named);
 }
 
-/// All its grains are spheres, also where they move in a plane.
+/// Facts of a run of LIGGGHTS, whose grains are always spheres, also in a plane.
 ArchiveFacts facts_of_liggghts()
 {
   auto facts = facts_of_late_forces("LIGGGHTS");
@@ -171,8 +171,9 @@ ArchiveFacts facts_of_liggghts()
   return facts;
 }
 
-/// Names that say what columns hold choose the list of keywords that has ids and force there, if one
-/// does: only the list knows the order of all others. Without such names it is a preset.
+/// The mapping without --columns. If column names are meaningful, it is the list of keywords with
+/// ids and force in these columns, because the list also knows the other columns; without such a
+/// list it is the mapping by names. If names have no meaning, it is a preset.
 std::string assumed_columns(const DumpHeader& contacts, const ArchiveGrains&)
 {
   auto named = columns_by_name(contacts, PlainForce::whole);
@@ -189,13 +190,13 @@ bool is_of_liggghts(const FileStart& start)
   return role_of_dump(start) == FileRole::grains || are_of_liggghts(columns_of_dump(start));
 }
 
-/// `dump custom` of grains beside `dump local` of `compute pair/gran/local`, as LIGGGHTS writes
-/// them (compute_pair_gran_local.cpp; liggghts_columns.hpp for its columns). Without --columns a
-/// dump of 12, 25 or 35 columns is assumed to be the preset of that size; the grains' balance
-/// verifies it. `force` is the whole force on the first of the two ids. Text has 6 digits unless
-/// dump_modify says otherwise, so `delta` is used as the overlap where it is dumped. Contacts with
-/// meshes are the rows of another dump, of `compute wall/gran/local`; those with primitive walls are in
-/// none.
+/// Opens a `dump custom` of grains and a `dump local` of `compute pair/gran/local` of LIGGGHTS
+/// (compute_pair_gran_local.cpp; liggghts_columns.hpp for the columns). Without --columns a dump of
+/// 12, 25 or 35 columns is assumed to be the preset of that size; the grains' force balances verify
+/// this. `force` is the total force on the first of the two ids. Text has 6 digits unless
+/// dump_modify sets another format, so `delta`, if dumped, is used as the overlap. Contacts with
+/// meshes are in a separate dump, of `compute wall/gran/local`; contacts with primitive walls are
+/// in no dump.
 std::unique_ptr<Archive> open_liggghts(const ArchiveFiles& files)
 {
   static const DumpDialect dialect{assumed_columns,       liggghts_mapping,
@@ -233,7 +234,7 @@ std::string liggghts_mapping(const std::string& columns, const DumpHeader& conta
   add("overlap", layout["delta"]);
   if (mapping.find("j=") == std::string::npos || mapping.find("fx=") == std::string::npos)
     throw UsageError(fmt::format(
-        "--columns {}: id, and force or its normal and tangential part, are needed and have to be "
+        "--columns {}: id, and force or its normal and tangential part, are required and must be "
         "in {}",
         columns, contacts.place));
   return mapping;
@@ -264,8 +265,8 @@ std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& 
   }
   if (!all_there)
     throw UsageError(
-        fmt::format("--wall-columns {}: pos, id and force are needed and have to be in {}",
-                    keywords, walls.place));
+        fmt::format("--wall-columns {}: pos, id and force are required and must be in {}", keywords,
+                    walls.place));
   return mapping;
 }
 
@@ -318,6 +319,6 @@ const ArchiveFormat liggghts_format{
         "  grseg-import --format liggghts --grains 'atoms_*' --contacts 'contacts_*' \\\n"
         "    --units si --columns pos,id,force,delta --step 5e-6 --gravity 9.81 --slope 23 \\\n"
         "    --axes xz --boundary 3 -o run.h5\n",
-    .notes = "  liggghts: --columns may also list the keywords of its compute pair/gran/local\n"};
+    .notes = "  liggghts: --columns may also list the keywords of the compute pair/gran/local\n"};
 
 }  // namespace grseg

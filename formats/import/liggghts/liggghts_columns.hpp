@@ -8,29 +8,30 @@
 
 namespace grseg {
 
-/// Columns of LIGGGHTS's `compute pair/gran/local` as a mapping of contact_columns.hpp. `columns`
-/// is
+/// Converts columns of LIGGGHTS' `compute pair/gran/local` to a mapping (contact_columns.hpp).
+/// `columns` is one of
 ///   the keywords of the compute, in any order: pos,vel,id,force,force_normal,force_tangential,
 ///     torque,torque_normal,torque_tangential,history,contactArea,delta,contactPoint,ms_id;
-///     history:N where the model keeps N values instead of 3;
+///     history:N if the contact model stores N values instead of 3;
 ///   a preset: liggghts-default (25 columns, no keywords), liggghts-full35, forcechain12;
 ///   a mapping, which is returned unchanged.
-/// Columns are written in the order above, whatever the order of the keywords
-/// (compute_pair_gran_local.cpp; the manual gives another order). Names like c_cp[13] show which of
-/// the compute's columns were dumped. UsageError naming what does not fit: an unknown keyword, ids
-/// or force missing or not dumped, another number of columns.
+/// LIGGGHTS writes the columns in the order above, for any order of the keywords
+/// (compute_pair_gran_local.cpp; the manual lists another order). Names like c_cp[13] show which of
+/// the compute's columns were dumped. Throws UsageError naming the reason if a keyword is unknown,
+/// if ids or force are missing or not dumped, or if the number of columns differs.
 std::string liggghts_mapping(const std::string& columns, const DumpHeader& contacts);
 
-/// A mapping of WallRows for `compute wall/gran/local`: pos holds contact point and grain, id mesh,
-/// triangle and grain, and force acts on the grain. "" is pos,id,force, which is needed.
+/// The mapping of WallRows for `compute wall/gran/local`. Its pos contains contact point and centre
+/// of the grain, its id the ids of mesh, triangle and grain, and its force acts on the grain.
+/// `columns` must include pos, id and force; "" means pos,id,force.
 std::string liggghts_wall_mapping(const std::string& columns, const DumpHeader& walls);
 
-/// True for columns of pair/gran/local: all of one compute, c_cp[1] c_cp[2] ..., while LAMMPS takes
-/// two, for ids and forces; or with a name that LIGGGHTS alone uses, for the positions of both
-/// grains or a contact across a period.
+/// True for columns of LIGGGHTS' pair/gran/local: all columns of one compute, c_cp[1] c_cp[2] ...,
+/// whereas LAMMPS needs two computes, for ids and forces; or a name that only LIGGGHTS uses, for
+/// the positions of both grains or for a contact across a periodic boundary.
 bool are_of_liggghts(const std::vector<std::string>& columns);
 
-/// Presets and lists of keywords that have as many columns as the header.
+/// Presets and lists of keywords with the same number of columns as the header.
 std::vector<std::string> liggghts_columns_of(const DumpHeader& contacts);
 
 }  // namespace grseg

@@ -27,7 +27,7 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
   const auto i = static_cast<std::size_t>(row.i);
   const bool wall = row.j < 0;
   const auto j = wall ? i : static_cast<std::size_t>(row.j);
-  const double side = wall ? -1 : 1;  // written the other way round
+  const double side = wall ? -1 : 1;  // at walls MercuryDPM writes the opposite signs
   double reach = grains.radius[i] - row.overlap;
   if (!wall) {
     reach += grains.radius[j];
@@ -35,7 +35,7 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
     if (!period_is_known && distance > 1.1 * (grains.radius[i] + grains.radius[j]))
       fail_at(rows, row,
               fmt::format("grains {} and {} touch across a periodic boundary, or are from another "
-                          "run; give --restart, which names the periodic directions",
+                          "run; add --restart, which states the periodic directions",
                           row.i, row.j));
   }
   moment.contacts.add(grains.id[i], grains.id[j], wall ? static_cast<std::int32_t>(-row.j - 1) : -1,
@@ -43,14 +43,14 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
                       side * reach * row.normal, row.overlap);
 }
 
-/// x - contact point, at a distance of r - overlap.
+/// Branch of a contact with a wall: x - contact point, of length r - overlap.
 Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
                     const MercuryRestart::Interaction& row, std::size_t g)
 {
   const Vec3 x = moment.grains.position[g];
   const double radius = moment.grains.radius[g];
   if (row.point) {
-    const Vec3 arm = moment.minimum_image(x - *row.point);  // r - overlap/2
+    const Vec3 arm = moment.minimum_image(x - *row.point);  // its length is r - overlap/2
     return (2 - radius / arm.norm()) * arm;
   }
   const auto wall = restart.walls.find(row.j);
@@ -58,9 +58,9 @@ Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
   const auto& [kind, position, normal] = wall->second;
   if (!normal || kind != "InfiniteWall")
     throw FormatError(
-        fmt::format("is with wall {} ({}), but does not name the contact point: restart files "
-                    "before 2016 do not, and it follows from the file for an InfiniteWall alone; "
-                    "give the .data and .fstat of the run as well",
+        fmt::format("is with wall {} ({}), but has no contact point, as in restart files before "
+                    "2016; without it the import can only read contacts with an InfiniteWall; "
+                    "name the .data and .fstat of the run as well",
                     row.j, kind));
   return -normal->dot(position - x) * *normal;
 }
@@ -84,14 +84,15 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
                       grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
 }
 
-/// Adds the contacts of a block of .fstat, whose rows of grains refer to `moment`:
-/// * Force on i = fn n + ft t, n from j to i; at a wall n and t have the opposite signs.
-/// * Most pairs stand in two rows, (i, j) and (j, i), those with a fixed grain or across a periodic
-///   boundary in one: the first row is used, with its whole force.
-/// * Branch = n (r_i + r_j - delta): x_i - x_j is not the branch across a periodic boundary. A
-///   wall's contact point is where it cuts its normal through the grain, at r_i - delta.
-/// FormatError naming the row where the two do not belong together. Unless `period_is_known`, a
-/// pair that is too far apart to touch is refused.
+/// Adds the contacts of a block of .fstat, whose grain numbers are rows of `moment`:
+/// * Force on i = fn n + ft t, with n from j to i; at a wall n and t have the opposite signs.
+/// * Most pairs are in two rows, (i, j) and (j, i); pairs with a fixed grain or across a periodic
+///   boundary are in one. Only the first row is used; it has the total force.
+/// * Branch = n (r_i + r_j - delta), because x_i - x_j is wrong across a periodic boundary. The
+///   contact point of a wall is on its normal through the grain's centre, at the distance r_i -
+///   delta.
+/// Throws FormatError naming the row if grains and contacts do not match. Unless `period_is_known`,
+/// also for a pair that is too far apart to touch.
 void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, ArchiveMoment& moment)
 {
   std::set<std::pair<std::int64_t, std::int64_t>> known;
@@ -107,8 +108,8 @@ void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, Archiv
   }
 }
 
-/// Adds the contacts of the block Interactions, between grains of `moment` by their ids. Overlap
-/// and branch of two grains follow from their positions.
+/// Adds the contacts of the block Interactions, which names grains of `moment` by their ids.
+/// Overlap and branch of two grains follow from their positions.
 void add_mercury_contacts(const MercuryRestart& restart, ArchiveMoment& moment)
 {
   const auto row_of = rows_by_id(moment.grains);
@@ -125,7 +126,7 @@ constexpr const char* info_is_species = "info=species";
 
 class MercuryArchive : public Archive {
  public:
-  /// Where there is no .fstat, the .restart files with the grains hold the contacts, too.
+  /// Without .fstat the grains come from .restart files, which also contain the contacts.
   MercuryArchive(std::unique_ptr<MercuryGrains> grains, std::vector<std::string> fstat)
       : grains_(std::move(grains))
   {
@@ -147,7 +148,7 @@ class MercuryArchive : public Archive {
     if (forces_ ? !next_of_both(moment) : !grains_->next(moment)) return false;
     if (last_time_ && *moment.time <= *last_time_)
       throw FormatError(fmt::format(
-          "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate moment "
+          "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate frame "
           "(from a restart), or name the files in order of time",
           moment.place, *moment.time, *last_time_));
     last_time_ = moment.time;
@@ -156,8 +157,8 @@ class MercuryArchive : public Archive {
       add_mercury_contacts(*forces_, restart != nullptr, moment);
     else if (restart->positional > 0)
       throw UsageError(fmt::format(
-          "{}: a .restart of version {} has no contact forces; give it as --grains and the .fstat of "
-          "the run as --contacts",
+          "{}: a .restart of version {} has no contact forces; name it with --grains and the "
+          ".fstat of the run with --contacts",
           moment.place, restart->positional));
     else
       add_mercury_contacts(*restart, moment);
@@ -165,8 +166,8 @@ class MercuryArchive : public Archive {
   }
 
  private:
-  /// Times are equal to the digits of the text, of which .data and .fstat have ten and old files eight
-  /// or six.
+  /// Advances to the next time that both tables have. Times are equal to within the digits of the
+  /// text: ten in .data and .fstat, eight or six in old files.
   bool next_of_both(ArchiveMoment& moment)
   {
     const auto order = [&] {
@@ -174,8 +175,10 @@ class MercuryArchive : public Archive {
       if (std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b))) return 0;
       return a < b ? -1 : 1;
     };
-    return matching_.next({[&] { return grains_->next(moment); }, [&] { return *moment.time; }},
-                          {[&] { return forces_->next(); }, [&] { return forces_->time; }}, order);
+    const auto text = [](double time) { return fmt::format("{:.10g}", time); };
+    return matching_.next(
+        {[&] { return grains_->next(moment); }, [&] { return text(*moment.time); }},
+        {[&] { return forces_->next(); }, [&] { return text(forces_->time); }}, order);
   }
 
   std::unique_ptr<MercuryGrains> grains_;
@@ -185,13 +188,13 @@ class MercuryArchive : public Archive {
   Matching matching_;
 };
 
-/// Files for each moment have numbers behind: run.data.0001.
+/// Role of a file by its ending. Files of single frames end in a number: run.data.0001.
 FileRole role_of(const FileStart& start)
 {
   constexpr std::pair<const char*, FileRole> endings[] = {
       {".data", FileRole::grains}, {".fstat", FileRole::contacts}, {".restart", FileRole::restart}};
   const auto name = start.name.substr(0, start.name.find_last_not_of(".0123456789") + 1);
-  // A .restart of version 2 or 3 stands for .data.
+  // A .restart of version 2 or 3 has no contacts, so it has the role of a .data.
   const bool positional =
       !start.lines.empty() && (start.lines[0].starts_with("restart_version 2") ||
                                start.lines[0].starts_with("restart_version 3"));
@@ -201,22 +204,23 @@ FileRole role_of(const FileStart& start)
   return FileRole::none;
 }
 
-/// Runs of MercuryDPM as its source writes them (mercury_tables.hpp, mercury_restart.hpp), in one of
-/// three sets of files:
+/// Opens a run of MercuryDPM (mercury_tables.hpp, mercury_restart.hpp). It consists of one of three
+/// sets of files:
 /// * .data (`files.grains`), .fstat (`files.contacts`), and .restart, which states masses, species,
-///   fixed grains, gravity, step, discs or spheres and periodic boundaries. Without it the command
-///   line must give them. The info column is a species only where --columns says info=species. No
-///   forces on grains.
-/// * .restart files alone (`files.restart`, or `files.grains`), each a whole moment.
-/// * .restart files of versions 3 and 2, which have no contacts, as `files.grains`, with .fstat.
-/// Moments of two tables are matched by time; the two may be saved at different times.
+///   fixed grains, gravity, step, discs or spheres and periodic boundaries. Without .restart the
+///   command line must state them. The info column is a species only with --columns info=species.
+///   There are no forces on grains.
+/// * Only .restart files (`files.restart`, or `files.grains`), each of which is a complete frame.
+/// * .restart files of versions 3 and 2, which have no contacts, as `files.grains`, and .fstat.
+/// Frames of two tables are matched by time; the tables may have different times.
 ///
-/// Not in these files: units.
+/// These files do not state units.
 std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
 {
   if (!files.columns.empty() && files.columns != info_is_species)
     throw UsageError(
-        fmt::format("--columns '{}': the columns of MercuryDPM are known; only {} is accepted",
+        fmt::format("--columns '{}': the format fixes the columns "
+                    "of MercuryDPM; only {} is accepted",
                     files.columns, info_is_species));
   const auto archive_of = [](std::unique_ptr<MercuryGrains> grains,
                              std::vector<std::string> fstat) {
@@ -231,7 +235,7 @@ std::unique_ptr<Archive> open_mercury(const ArchiveFiles& files)
   if (!of_restart || !files.contacts.empty())
     contacts = archive_files(files.contacts, "--contacts");
   if (of_restart) return archive_of(std::make_unique<MercuryRestarts>(grains), contacts);
-  // The last of many lists all grains that were ever inserted.
+  // The last .restart lists all grains that were ever inserted.
   const auto restart =
       files.restart.empty() ? files.restart : archive_files({files.restart}, "--restart").back();
   return archive_of(
@@ -250,7 +254,7 @@ const ArchiveFormat mercury_format{
         "  grseg-import --format mercury --grains run.data --contacts run.fstat \\\n"
         "    --restart run.restart --units si -o run.h5\n",
     .notes =
-        "  mercury: .restart holds step, gravity, masses, species and the base, and from version\n"
-        "  1.0 on (2014) grains and contacts of its moment; the only --columns is info=species\n"};
+        "  mercury: .restart files have step, gravity, masses, species and base; since version 1.0\n"
+        "  (2014) also grains and contacts of one frame. --columns accepts only info=species\n"};
 
 }  // namespace grseg

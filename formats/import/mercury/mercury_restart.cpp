@@ -13,12 +13,12 @@
 namespace grseg {
 namespace {
 
-/// The lines of a .restart of MercuryDPM: words, each followed by its values, or values alone.
+/// Reads the lines of a .restart of MercuryDPM: words, each followed by its values, or only values.
 class MercuryLines {
  public:
   explicit MercuryLines(const std::string& path) : source_({path}) {}
 
-  /// False at the end of the file.
+  /// Reads the next line; false at the end of the file.
   bool next()
   {
     if (!source_.next()) return false;
@@ -26,14 +26,14 @@ class MercuryLines {
     return true;
   }
 
-  /// The next line; TruncatedArchive where the file ends before or inside it, `where` being "in its
-  /// particles".
+  /// Reads the next line. Throws TruncatedArchive if the file ends before or inside it; `where` is
+  /// part of the message, such as "in its particles".
   void need_next(const std::string& where)
   {
     if (!next() || !source_.line_is_whole())
       throw TruncatedArchive(
           fmt::format("{}: the file ends {}; copy it again", source_.place(), where));
-    if (kind() == "...") fail("the rest of the block is left out; write the restart file whole");
+    if (kind() == "...") fail("the rest of the block is left out; write the complete restart file");
   }
 
   bool has(std::string_view key) const { return place_of(key) < words_.size(); }
@@ -41,7 +41,7 @@ class MercuryLines {
   std::string_view kind() const { return words_.empty() ? std::string_view() : words_[0]; }
   const std::vector<std::string_view>& words() const { return words_; }
 
-  /// The `place`-th value behind a word of the line.
+  /// The value number `place`, from 0, behind a word of the line.
   double value(std::string_view key, std::size_t place = 0) const
   {
     const auto at = place_of(key) + 1 + place;
@@ -59,17 +59,17 @@ class MercuryLines {
     return static_cast<std::int64_t>(number);
   }
 
-  /// Where the line is "key count".
+  /// The count of a line "key count"; empty for other lines.
   std::optional<std::size_t> count(std::string_view key) const
   {
     if (kind() != key) return std::nullopt;
     const double number = value(key);
     if (number < 0 || !is_whole(number, 1e9))
-      fail(fmt::format("{} is not a number of {}", in_quotes(source_.line()), key));
+      fail(fmt::format("{} is not the number of {}", in_quotes(source_.line()), key));
     return static_cast<std::size_t>(number);
   }
 
-  /// The words from the `first`-th on as numbers.
+  /// The words from number `first`, from 0, to the end of the line, as numbers.
   std::vector<double> numbers(std::size_t first) const
   {
     std::vector<double> numbers;
@@ -102,20 +102,21 @@ class MercuryLines {
 };
 
 struct Refused {
-  std::string_view part;  // of the kind's name
+  std::string_view part;  // part of the name of the boundary's kind
   const char* why;
 };
 
 constexpr Refused refused[] = {
     {"TimeDependentPeriodic", "moves and shifts grains with time"},
-    {"LeesEdwards", "shears the cell: grains that leave it above come back below at another place"},
-    {"AngledPeriodic", "turns grains that leave the cell"},
-    {"CircularPeriodic", "turns grains that leave the cell"},
+    {"LeesEdwards",
+     "shears the cell: grains that leave at the top enter at the bottom at another place"},
+    {"AngledPeriodic", "rotates grains that leave the cell"},
+    {"CircularPeriodic", "rotates grains that leave the cell"},
     {"StressStrainControl", "changes the size of the cell"},
     {"Maser", "is periodic in a part of the cell only, and puts copies of grains into the rest"},
 };
 
-/// The two places of a periodic boundary along its normal, in whatever version.
+/// The two positions of a periodic boundary along its normal, in all versions of the file.
 std::array<double, 2> places_of(const MercuryLines& lines)
 {
   for (const auto& [left, right] : {std::pair{"distanceLeft", "distanceRight"},
@@ -125,14 +126,14 @@ std::array<double, 2> places_of(const MercuryLines& lines)
   lines.fail("'distanceLeft' of the periodic boundary is missing");
 }
 
-/// Takes the period of the boundary in the line at hand into `restart`, if it is one. FormatError
-/// where the cell is periodic in a way that is not imported.
+/// Reads a boundary from the current line; if it is periodic, stores the period in `restart`.
+/// Throws FormatError for a kind of periodicity that cannot be imported.
 void read_boundary(MercuryLines& lines, MercuryRestart& restart)
 {
   const auto kind = lines.kind();
   for (const auto& [part, why] : refused)
     if (kind.find(part) != std::string_view::npos)
-      lines.fail(fmt::format("the {} {}; such a cell is not imported", kind, why));
+      lines.fail(fmt::format("the {} {}; such a cell cannot be imported", kind, why));
   restart.removes_grains |= kind.find("Deletion") != std::string_view::npos;
   if (kind != "PeriodicBoundary" && kind != "normal") return;
   const Vec3 normal = lines.has("normal") ? lines.vector("normal") : Vec3(NAN, NAN, NAN);
@@ -141,13 +142,14 @@ void read_boundary(MercuryLines& lines, MercuryRestart& restart)
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(normal[axis]) > 1 - 1e-12)) continue;
     if (!((shift - (right - left) * normal).norm() < 1e-6 * std::abs(right - left)))
-      lines.fail("the periodic boundary shifts grains obliquely, which is not imported");
+      lines.fail("the periodic boundary shifts grains obliquely, which cannot be imported");
     restart.periodic[static_cast<std::size_t>(axis)] = true;
     restart.low[axis] = std::min(normal[axis] * left, normal[axis] * right);
     restart.high[axis] = std::max(normal[axis] * left, normal[axis] * right);
     return;
   }
-  lines.fail("the cell is periodic along none of the axes, which is not imported");
+  lines.fail(
+      "the direction of the periodic boundary is not one of the axes, which cannot be imported");
 }
 
 using Particle = MercuryRestart::Particle;
@@ -163,20 +165,21 @@ Particle named_particle(const MercuryLines& lines)
   particle.position = lines.vector("position");
   particle.velocity = lines.vector("velocity");
   particle.angular_velocity = lines.vector("angularVelocity");
-  // Until 2015 the angular velocity had a fourth number, but no word has.
+  // Until 2015 a fourth number, which is ignored, followed the angular velocity.
   particle.force = lines.vector("force");
   return particle;
 }
 
-/// True where `rest` is `before` numbers and then n springs of `size` numbers, n being its `at`-th.
+/// True if `rest` is `before` numbers and n springs of `size` numbers, where n is rest[at].
 bool has_springs(const std::vector<double>& rest, std::size_t at, std::size_t before, double size)
 {
   return at < rest.size() && static_cast<double>(rest.size() - before) == rest[at] * size;
 }
 
-/// The species in what follows the inertia. Version 3: it, or it, n and n springs of 12 numbers.
-/// (The program's own reader looks for it behind the springs, where its files do not have it.)
-/// Version 2: n and n springs of 6 numbers, with or without it before them.
+/// The species of a particle, from the numbers behind its inertia. Version 3: the species; or the
+/// species, n, and n springs of 12 numbers. (MercuryDPM's own reader expects the species behind the
+/// springs, which its files contradict.) Version 2: n and n springs of 6 numbers, with or without
+/// the species before.
 std::int32_t species_in(const std::vector<double>& rest, const MercuryRestart& restart,
                         const MercuryLines& lines)
 {
@@ -185,7 +188,7 @@ std::int32_t species_in(const std::vector<double>& rest, const MercuryRestart& r
   if (has_springs(rest, 1, 2, spring)) return static_cast<std::int32_t>(rest[0]);
   if (restart.positional == 2 && has_springs(rest, 0, 1, spring)) {
     if (restart.density.size() == 1) return 0;
-    lines.fail(fmt::format("the row of a particle does not say to which of {} species it belongs",
+    lines.fail(fmt::format("the row of a particle does not state to which of {} species it belongs",
                            restart.density.size()));
   }
   lines.fail(
@@ -199,7 +202,7 @@ Particle positional_particle(const MercuryLines& lines, const MercuryRestart& re
   std::size_t first = 0;
   while (first < lines.words().size() &&
          std::isalpha(static_cast<unsigned char>(lines.words()[first][0])))
-    ++first;  // TSP BP
+    ++first;  // skips words such as TSP and BP
   const auto numbers = lines.numbers(first);
   if (numbers.size() < 16)
     lines.fail(fmt::format(
@@ -217,21 +220,22 @@ Particle positional_particle(const MercuryLines& lines, const MercuryRestart& re
   return particle;
 }
 
-/// FormatError where it is not one sphere or belongs to no species.
+/// Reads a particle. Throws FormatError if it is not a single sphere or belongs to no species.
 void read_particle(MercuryLines& lines, MercuryRestart& restart)
 {
   if (lines.kind() == "Clump" || lines.kind() == "SuperQuadricParticle")
-    lines.fail(fmt::format("a {} is not one sphere or disc, as grains are here", lines.kind()));
+    lines.fail(fmt::format("a {} cannot be imported: grains must be single spheres or discs",
+                           lines.kind()));
   auto particle =
       restart.positional > 0 ? positional_particle(lines, restart) : named_particle(lines);
   if (particle.species < 0 || particle.species >= std::ssize(restart.density))
-    lines.fail("the particle belongs to none of the species above");
+    lines.fail("the particle belongs to none of the species listed above it");
   if (!(particle.radius > 0) || particle.inverse_mass < 0)
     lines.fail("the radius of the particle is not positive, or its mass is negative");
   restart.particles.push_back(particle);
 }
 
-/// The first line: the version.
+/// Reads the first line, which states the version.
 void read_version(const MercuryLines& lines, const std::string& path, MercuryRestart& restart)
 {
   const auto& words = lines.words();
@@ -239,18 +243,18 @@ void read_version(const MercuryLines& lines, const std::string& path, MercuryRes
   if (words.empty() || (words[0] != "MercuryDPM" && words[0] != "restart_version"))
     throw FormatError(fmt::format(
         "{} is not a .restart of MercuryDPM: it does not begin with 'MercuryDPM 1.0' or "
-        "'restart_version'. Files older than that name nothing; give --step, --gravity and "
-        "--density instead",
+        "'restart_version'. Older files have no words and cannot be read; "
+        "pass --step, --gravity and --density instead",
         path));
-  if (words[0] == "MercuryDPM") return;  // then the version of the program, or "x.x"
+  if (words[0] == "MercuryDPM") return;  // the next word is the program's version, or "x.x"
   if (version == "2" || version == "3")
     restart.positional = version == "2" ? 2 : 3;
   else if (version != "1.0")
-    lines.fail(
-        fmt::format("version {} of .restart is not known; 1.0, 2 and 3 are", in_quotes(version)));
+    lines.fail(fmt::format("version {} of .restart is unknown; known versions are 1.0, 2 and 3",
+                           in_quotes(version)));
 }
 
-/// A line above the species.
+/// Reads a line above the species: time, step, gravity, cell.
 void read_of_run(const MercuryLines& lines, MercuryRestart& restart)
 {
   if (lines.kind() == "name") return;
@@ -273,7 +277,7 @@ void read_of_run(const MercuryLines& lines, MercuryRestart& restart)
     }
   if (lines.has("numberOfProcessors") && lines.value("numberOfProcessors") > 1)
     lines.fail(
-        "the file holds the part of one of several processors; combine the parts with "
+        "the file is the part of one of several processors; combine the parts with "
         "CombineParallelRestartFiles.py of MercuryDPM's Tools");
 }
 
@@ -315,14 +319,14 @@ void read_interaction(MercuryLines& lines, MercuryRestart& restart)
 
 struct Block {
   const char* key;
-  void (*read)(MercuryLines& lines, MercuryRestart& restart);  // one line
+  void (*read)(MercuryLines& lines, MercuryRestart& restart);  // reads one line of the block
 };
 
 constexpr Block blocks[] = {{"Species", read_species},        {"Walls", read_wall},
                             {"WallsPeriodic", read_boundary}, {"Boundaries", read_boundary},
                             {"Particles", read_particle},     {"Interactions", read_interaction}};
 
-/// The lines of the block that the line at hand begins, if it begins one.
+/// Reads the lines of a block, if the current line begins one.
 void read_block(MercuryLines& lines, MercuryRestart& restart)
 {
   for (const auto& [key, read] : blocks) {

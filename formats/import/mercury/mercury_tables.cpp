@@ -7,14 +7,15 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace grseg {
 namespace {
 
-constexpr double most = std::numeric_limits<std::int32_t>::max();  // grains
+constexpr double most = std::numeric_limits<std::int32_t>::max();  // largest number of grains
 constexpr const char* removed =
-    "MercuryDPM moves the last row to the place of a grain that it removes, so that rows no longer "
-    "name grains; import the .restart files of the moments instead, which have ids "
+    "MercuryDPM moves the last row to the place of a grain that it removes, so rows no longer "
+    "identify grains; import the .restart files instead, which have ids "
     "(restartFile.setFileType(FileType::MULTIPLE_FILES); --restart 'run.restart.*')";
 
 void add_period(const MercuryRestart& restart, ArchiveMoment& moment)
@@ -44,8 +45,8 @@ bool MercuryData::next(ArchiveMoment& moment)
   do {
     if (!source_.next()) return false;
   } while (words_of(source_.line()).empty());
-  moment = ArchiveMoment{};
-  moment.place = source_.place();
+  ArchiveMoment now;
+  now.place = source_.place();
   if (!source_.line_is_whole()) source_.fail_at_end("a header");
   read_numbers(source_, numbers_);
   const auto h = numbers_;
@@ -54,20 +55,21 @@ bool MercuryData::next(ArchiveMoment& moment)
     source_.fail(
         fmt::format("{} numbers, but a block of .data begins with 6 (2D) or 8 (3D)", h.size()));
   if (h[0] < 0 || !is_whole(h[0], most))
-    source_.fail(fmt::format("{:g} is not a number of grains", h[0]));
-  moment.time = h[1];
-  moment.low = plane_ ? Vec3(h[2], h[3], 0) : three(h, 2);
-  moment.high = plane_ ? Vec3(h[4], h[5], 0) : three(h, 5);
+    source_.fail(fmt::format("{:g} is not the number of grains", h[0]));
+  now.time = h[1];
+  now.low = plane_ ? Vec3(h[2], h[3], 0) : three(h, 2);
+  now.high = plane_ ? Vec3(h[4], h[5], 0) : three(h, 5);
   for (auto rows = static_cast<std::size_t>(h[0]); rows > 0; --rows) {
     if (!source_.next() || !source_.line_is_whole()) source_.fail_at_end("a block of grains");
-    read_row(moment.grains);
+    read_row(now.grains);
   }
-  require_rows_that_name_grains(moment);
-  last_radius_ = moment.grains.radius;
+  require_rows_that_name_grains(now);
+  last_radius_ = now.grains.radius;
   if (restart_) {
-    add_restart_facts(moment.place, moment.grains);
-    add_period(*restart_, moment);
+    add_restart_facts(now.place, now.grains);
+    add_period(*restart_, now);
   }
+  moment = std::move(now);
   return true;
 }
 
@@ -87,7 +89,7 @@ void MercuryData::read_row(ArchiveGrains& grains)
   };
   if (plane_ && (columns == 8 || columns == 10))
     add({row[0], row[1], 0}, {row[2], row[3], 0}, row[4], {0, 0, -row[6]}, row[7]);
-  else if (!plane_ && columns == 8)  // format 7: y and z change places
+  else if (!plane_ && columns == 8)  // format 7: y and z are exchanged
     add({row[0], row[2], row[1]}, {row[3], row[5], row[4]}, row[6], no_spin, row[7]);
   else if (!plane_ && columns >= 14 && columns <= 17)
     add(three(row, 0), three(row, 3), row[6], three(row, 10), row[columns % 2 == 0 ? 13 : 14]);
@@ -118,7 +120,7 @@ void MercuryData::add_restart_facts(const std::string& place, ArchiveGrains& gra
 {
   if (restart_->particles.size() < grains.size())
     throw FormatError(
-        fmt::format("{}: {} grains, but only {} in {}; give the last .restart of the run", place,
+        fmt::format("{}: {} grains, but only {} in {}; name the last .restart of the run", place,
                     grains.size(), restart_->particles.size(), restart_path_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const auto& particle = restart_->particles[g];
@@ -139,8 +141,8 @@ bool MercuryFStat::next_line()
   return false;
 }
 
-/// "# t 1" and two more comments; the second number says whether cx cy cz are the contact point (1)
-/// or, in old files, the middle of the two centres (0). Neither is needed for anything.
+/// Reads the header: "# t 1" and two more comments. The number behind the time t is not used: 1 if
+/// cx cy cz are the contact point, 0 (old files) if they are the middle of the two centres.
 void MercuryFStat::read_header()
 {
   const auto words = words_of(source_.line());
@@ -196,7 +198,7 @@ bool MercuryRestarts::next(ArchiveMoment& moment)
   ++at_;
   if (!(restart_.gravity - gravity).isZero(1e-12 * gravity.norm()))
     throw FormatError(
-        fmt::format("{}: gravity is ({:g} {:g} {:g}), but ({:g} {:g} {:g}) in the file before; "
+        fmt::format("{}: gravity is ({:g} {:g} {:g}), but ({:g} {:g} {:g}) in the previous file; "
                     "import the files of each gravity separately",
                     files_[at_ - 1], restart_.gravity.x(), restart_.gravity.y(),
                     restart_.gravity.z(), gravity.x(), gravity.y(), gravity.z()));

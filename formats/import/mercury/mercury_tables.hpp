@@ -9,32 +9,32 @@
 #include <string>
 #include <vector>
 
-/// The two tables of a MercuryDPM run, block by block.
+/// Readers of the two tables of a MercuryDPM run, .data and .fstat, and of .restart files.
 namespace grseg {
 
-/// Where the grains of a MercuryDPM run come from, moment by moment in order of time.
+/// Source of the grains of a MercuryDPM run, frame by frame in order of time.
 class MercuryGrains {
  public:
   virtual ~MercuryGrains() = default;
-  /// Fills all of the next moment but its contacts; false at the end.
+  /// Reads the next frame without its contacts; false at the end.
   virtual bool next(ArchiveMoment& moment) = 0;
-  /// The .restart that says what is periodic; the one of the moment at hand where there are many.
+  /// The .restart (of the current frame, if there are many), with the periodic directions; or null.
   virtual const MercuryRestart* restart() const = 0;
 };
 
-/// Blocks of .data, beside one .restart or none, by the number of columns (DPMBase::outputXBallsData,
-/// readNextDataFile):
+/// Reads blocks of .data, with or without a .restart. The number of columns shows the format
+/// (DPMBase::outputXBallsData, readNextDataFile); N is the number of grains:
 ///   format 8 (2D)  N t xmin ymin xmax ymax;            x y vx vy radius angle -omega info
 ///   format 7       N t xmin ymin zmin xmax ymax zmax;  x z y vx vz vy radius info
-///   format 14      the same header;  x y z vx vy vz radius alpha beta gamma wx wy wz info
-///   format 15      the same with one more number before info
-/// and formats 8, 14 and 15 also with the two flags that parallel builds append to each row. info is
-/// the species by default, but a program may redefine it.
+///   format 14      header of format 7;  x y z vx vy vz radius alpha beta gamma wx wy wz info
+///   format 15      format 14 with one more number before info
+/// In formats 8, 14 and 15 parallel builds append two flags to each row. The column info is the
+/// species by default, but a program may redefine it.
 ///
-/// Grain g is row g, and g its id: a program that inserts grains appends rows, but one that removes a
-/// grain moves the last row to its place, so that rows name no grain any more: this is refused where it
-/// shows. FormatError naming the line where a block has none of these formats, TruncatedArchive where
-/// the file ends inside a block.
+/// The id of a grain is the number of its row, from 0. MercuryDPM appends a row for an inserted
+/// grain, but moves the last row to the place of a removed grain, so rows no longer identify
+/// grains. Throws FormatError if such a removal is visible, and, naming the line, if a block has
+/// none of these formats; TruncatedArchive if the file ends inside a block.
 class MercuryData : public MercuryGrains {
  public:
   MercuryData(std::vector<std::string> files, std::string restart_path, bool info_is_species);
@@ -47,7 +47,7 @@ class MercuryData : public MercuryGrains {
   void add_restart_facts(const std::string& place, ArchiveGrains& grains) const;
 
   TextSource source_;
-  bool plane_ = false;  // six numbers in the header
+  bool plane_ = false;  // true: a run in a plane, whose header has six numbers
   std::vector<double> numbers_;
   std::string restart_path_;
   std::optional<MercuryRestart> restart_;
@@ -55,8 +55,8 @@ class MercuryData : public MercuryGrains {
   std::vector<double> last_radius_;
 };
 
-/// A series of .restart files, each a moment with everything but, in versions 3 and 2, forces on
-/// grains. Ids are the program's, which it never uses twice.
+/// Reads a series of .restart files, each of which is a frame. Versions 3 and 2 lack forces on
+/// grains. Ids are unchanged; MercuryDPM never uses an id twice.
 class MercuryRestarts : public MercuryGrains {
  public:
   explicit MercuryRestarts(std::vector<std::string> files);
@@ -65,19 +65,19 @@ class MercuryRestarts : public MercuryGrains {
 
  private:
   std::vector<std::string> files_;
-  std::size_t at_ = 0;  // files handed out
+  std::size_t at_ = 0;  // number of files read so far
   MercuryRestart restart_;
 };
 
 /// A row of .fstat (BaseInteraction::writeToFStat).
 struct MercuryContact {
-  std::int64_t i, j;  // rows of .data; j < 0: wall -j-1
+  std::int64_t i, j;  // grains as rows of .data; j < 0: wall -j-1
   double overlap, normal_force, tangential_force;
   Vec3 normal, tangent;
-  std::size_t line;  // within its block, from 1
+  std::size_t line;  // number of the line in its block, from 1
 };
 
-/// Blocks of .fstat: three lines of comments, the first with the time, then a row per contact
+/// Reads blocks of .fstat: three lines of comments, the first with the time, then a row per contact
 ///   t i j cx cy cz delta delta_t fn ft nx ny nz tx ty tz
 class MercuryFStat {
  public:
@@ -86,7 +86,7 @@ class MercuryFStat {
   bool next();
 
   double time = 0;
-  std::vector<MercuryContact> contacts;  // as they stand there
+  std::vector<MercuryContact> contacts;  // rows of the block, unchanged
   std::string place;
 
  private:
@@ -94,7 +94,7 @@ class MercuryFStat {
   void read_header();
 
   TextSource source_;
-  bool waiting_ = false;  // the line at hand begins the next block
+  bool waiting_ = false;  // true: the current line begins the next block
   std::vector<double> numbers_;
 };
 

@@ -22,16 +22,16 @@
 namespace grseg {
 namespace {
 
-/// The steps of a Siconos run, all of one length.
+/// The time steps of a Siconos run, which all have the same length.
 struct SiconosSteps {
-  double length = 0;       // in units of time
-  std::int64_t every = 1;  // most steps between two that were written (output_frequency)
-  bool has_start = true;   // the state before the first one is there
+  double length = 0;       // length of a step, in the archive's unit of time
+  std::int64_t every = 1;  // largest number of steps from one written step to the next
+  bool has_start = true;   // true: the file contains the state before the first step
 };
 
 using namespace siconos;
 
-/// The first column of /data/solv.
+/// Times of the written steps: the first column of /data/solv.
 std::vector<double> solved_times(hid_t file, const std::string& path)
 {
   const auto table = table_at(file, "/data/solv", path, written_by);
@@ -56,15 +56,15 @@ double first_time(hid_t file, const std::string& path)
 std::string why_not_later(double time, double before)
 {
   if (same_time(time, before))
-    return "has the time of the row before it: single precision no longer separates two steps; write "
-           "fewer of them (output_frequency)";
-  return "is not later than the row before it: the file is damaged, or holds two runs";
+    return "has the time of the previous row: single precision no longer separates two steps; "
+           "write fewer steps (output_frequency)";
+  return "is not later than the previous row: the file is damaged, or contains two runs";
 }
 
-/// From the first time of /data/dynamic, which is before the first step, and /data/solv, which has a
-/// row per step that was written: the first step, and then every output_frequency-th. Where the first
-/// rows of a run were taken away, so that /data/dynamic does not begin before /data/solv, the first
-/// two rows of /data/solv give the step. FormatError where the steps differ in length.
+/// Finds the steps. /data/dynamic begins with the time before the first step. /data/solv has a row
+/// per written step: the first step, and then every output_frequency-th. If the first rows of a run
+/// were removed, so that both begin at the same time, the first two rows of /data/solv determine
+/// the step. Throws FormatError if steps differ in length.
 SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
 {
   const auto solved = solved_times(file, path);
@@ -75,9 +75,7 @@ SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
   const bool has_start = start < solved[0] && !same_time(start, solved[0]);
   const std::size_t first = has_start ? 0 : 1;
   if (solved.size() <= first)
-    fail(
-        0,
-        "is the only one, and no state before it is in the file: nothing tells how long a step is");
+    fail(0, "is the only one, and the file has no earlier state: the length of a step is unknown");
   double before = has_start ? start : solved[0];
   const double begin = before, rough = solved[first] - begin;
   if (!(rough > 0) || !std::isfinite(rough)) fail(first, why_not_later(solved[first], before));
@@ -88,10 +86,9 @@ SiconosSteps read_siconos_steps(hid_t file, const std::string& path)
     if (whole < 1) fail(k, why_not_later(solved[k], before));
     if (!(std::abs(solved[k] - before - whole * found.length) <
           0.1 * found.length + 2.4e-7 * std::abs(solved[k])))
-      fail(k, fmt::format(
-                  "is not at a multiple of {:.6g} s: the steps are not all of the same length, "
-                  "so the impulses give no forces",
-                  found.length));
+      fail(k, fmt::format("is not at a multiple of {:.6g} s: the steps differ in length, "
+                          "so forces cannot be computed from impulses",
+                          found.length));
     found.every = std::max(found.every, static_cast<std::int64_t>(whole));
     before = solved[k];
   }
@@ -114,7 +111,7 @@ class SiconosArchive : public Archive {
   {
     wall_.assign(bodies_.all.size(), -1);
     std::int32_t next_wall = 0;
-    for (std::size_t b = bodies_.all.size(); b-- > 0;) {  // ids count downwards as bodies are added
+    for (std::size_t b = bodies_.all.size(); b-- > 0;) {  // ids decrease in the order of creation
       const auto& body = bodies_.all[b];
       if (body.radius == 0) wall_[b] = next_wall++;
       if (body.mass > 0) static_mass_per_size_ = body.mass / size_of(body);
@@ -160,17 +157,18 @@ class SiconosArchive : public Archive {
     std::vector<std::string> remarks;
     if (!steps_.has_start)
       remarks.push_back(fmt::format(
-          "{}: the file does not have the state before its first step, which is left out", path_));
+          "{}: the first step is left out, because the file does not have the state before it",
+          path_));
     if (steps_.every > 1)
       remarks.push_back(fmt::format(
-          "{}: at most every {} steps were written (output_frequency), which does not tell contacts that "
-          "had opened in the step before: their rows, with an impulse that no body felt, are among the "
-          "others",
+          "{}: only one of up to {} steps was written (output_frequency), so contacts that had "
+          "opened in the previous step cannot be recognised: their rows, with an impulse that "
+          "acted on no body, are included",
           path_, steps_.every));
     else if (left_out_ > 0)
       remarks.push_back(fmt::format(
-          "{}: {} rows of /data/cf repeat a contact that had opened a step before, with "
-          "an impulse that no body felt; they are left out",
+          "{}: {} rows of /data/cf repeat a contact that had opened in the previous step, with "
+          "an impulse that acted on no body; they are left out",
           path_, left_out_));
     return remarks;
   }
@@ -227,7 +225,7 @@ class SiconosArchive : public Archive {
       const auto& row = place_rows_[k];
       const auto b = body_of(id_at(row, 1), "/data/dynamic", first_row + k);
       const Vec3 position = vector_at(row, 2);
-      if (grain_of_[b]) {  // a run that was continued says twice where it stood
+      if (grain_of_[b]) {  // a continued run writes its initial state again
         if (grains.position[*grain_of_[b]] == position) continue;
         throw FormatError(
             fmt::format("{}: row {} of /data/dynamic: single precision no longer "
@@ -249,7 +247,7 @@ class SiconosArchive : public Archive {
       velocity[b] = vector_at(row, 2);
       if (!grain_of_[b]) continue;
       grains.velocity[*grain_of_[b]] = velocity[b];
-      // Written in the body's own axes.
+      // Siconos writes angular velocities in the body's own axes.
       grains.angular_velocity[*grain_of_[b]] = turned_[b] * vector_at(row, 5);
     }
     if (steps_.every == 1 && follows_previous(time)) {
@@ -266,7 +264,7 @@ class SiconosArchive : public Archive {
                      ArchiveContacts& contacts)
   {
     const bool follows = follows_previous(time);
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // bodies: entry of contacts
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // two bodies -> contact
     for (std::size_t k = 0; k < point_rows_.size(); ++k) {
       const auto& row = point_rows_[k];
       const auto first = body_of(id_at(row, first_at), "/data/cf", first_row + k);
@@ -306,11 +304,12 @@ class SiconosArchive : public Archive {
     const bool same =
         std::equal(row.begin() + 2, row.begin() + impulse_at, old.begin() + 2) &&
         std::equal(row.begin() + gap_at, row.begin() + reaction_at, old.begin() + gap_at);
-    // A contact at rest repeats itself, too; one that moves would be elsewhere by now.
+    // A row of a contact at rest is also equal to the previous one; so the contact must be moving.
     return same && vector_at(row, velocity_at).norm() * steps_.length > 1e-5 * radius;
   }
 
-  /// Where a row names one body twice, its partner is the static one that the second point lies on.
+  /// The second body of a contact. If a row names one body twice, its partner is the static body on
+  /// whose surface the second point lies.
   std::size_t second_body(const Points::Row& row, hsize_t number, double radius) const
   {
     const auto second = id_at(row, second_at);
@@ -318,8 +317,8 @@ class SiconosArchive : public Archive {
     const auto found = static_body_at(bodies_, vector_at(row, second_point_at), 0.1 * radius);
     if (!found)
       throw FormatError(fmt::format(
-          "{}: row {} of /data/cf touches a static body, but its second point lies on no static body "
-          "of /data/input",
+          "{}: row {} of /data/cf is a contact with a static body, but its second point lies on no "
+          "static body of /data/input",
           path_, number));
     return *found;
   }
@@ -328,25 +327,25 @@ class SiconosArchive : public Archive {
   File file_;
   SiconosSteps steps_;
   SiconosBodies bodies_;
-  std::vector<std::int32_t> wall_;  // number of the wall that a body is; -1: a grain
+  std::vector<std::int32_t> wall_;  // number of the wall, by body; -1: the body is a grain
   double static_mass_per_size_ = 0;
   Places places_;
   Velocities velocities_;
   Points points_;
   ArchiveFacts facts_;
 
-  // The state that the next step begins with, where it stands in the file.
+  // The state before the next step, if the file contains it.
   bool knows_state_ = false;
   double previous_time_ = -HUGE_VAL;
-  std::vector<Vec3> previous_velocity_;  // by body
+  std::vector<Vec3> previous_velocity_;  // velocity by body
   std::unordered_map<std::int64_t, Points::Row> previous_points_;
   std::size_t left_out_ = 0;
 
-  // Rows of the moment at hand.
+  // Rows of the current frame.
   std::vector<Places::Row> place_rows_;
   std::vector<Velocities::Row> velocity_rows_;
   std::vector<Points::Row> point_rows_;
-  std::vector<std::optional<std::size_t>> grain_of_;  // by body: entry of the moment's grains
+  std::vector<std::optional<std::size_t>> grain_of_;  // row in the frame's grains, by body
   std::vector<Eigen::Quaterniond> turned_;
 };
 
@@ -355,32 +354,33 @@ FileRole role_of(const FileStart& start)
   return start.groups == std::vector<std::string>{"data"} ? FileRole::grains : FileRole::none;
 }
 
-/// The HDF5 file of a Siconos run of discs or spheres (siconos.io.mechanics_run 4.4,
-/// output_contact_forces), a contact-dynamics program: rows of /data/dynamic, /data/velocities and
-/// /data/cf are found by their times, in single precision. `files.grains` names the one file.
+/// Opens the HDF5 file of a run of discs or spheres by Siconos, a contact-dynamics program
+/// (siconos.io.mechanics_run 4.4, output_contact_forces). Rows of /data/dynamic, /data/velocities
+/// and /data/cf are found by their times, in single precision. `files.grains` names the file.
 ///
-/// * Forces: /data/cf holds impulses of a step on body ds1, so force = impulse / step. The step is
-///   not in the file; it follows from /data/solv, which has a row per step that was written.
-/// * Moments: the times of /data/dynamic but the first: a step was solved at each. The initial state
-///   has no contacts. Where it was taken away, its place is taken by the first step, of which remarks()
-///   says that it is left out.
-/// * Partners: ds1 == ds2 means that the partner is static: the static disc, box or convex hull that
-///   the row's second point lies on. Static discs are grains with `fixed` set; they get the density
-///   of the first mobile grain, and their ids, which are negative, become numbers after the last
-///   mobile one. Boxes and hulls are walls, numbered in the order in which they were added.
-/// * Points: a sphere and a box may touch in several; their impulses are added.
-/// * A contact that has just opened stays in the table for one more step, with the geometry and
-///   relative velocity of the step before and an impulse that acted on no body. Such rows are left
-///   out; they can be recognised only where every step was written (output_frequency 1). Otherwise
-///   they stay, which remarks() says.
-/// * force of a grain: m (v - v of the step before) / step where every step was written.
+/// * Forces: /data/cf contains impulses of a step on body ds1, so force = impulse / step. The
+///   length of a step is not in the file; it follows from /data/solv, which has a row per written
+///   step.
+/// * Frames: the times of /data/dynamic except the first. A step was solved at each of these times;
+///   the initial state has no contacts. If the initial state was removed, the first step is left
+///   out instead, and remarks() reports this.
+/// * Partners: ds1 == ds2 means that the partner is static: the static disc, box or convex hull on
+///   whose surface the row's second point lies. Static discs are grains with `fixed` set. They get
+///   the density of the first mobile grain; their negative ids become numbers after the last mobile
+///   id. Boxes and hulls are walls, numbered in the order in which they were added.
+/// * Points: a sphere and a box may touch at several points; their impulses are added.
+/// * Opened contacts: a contact that has just opened is in the table for one more step, with the
+///   geometry and relative velocity of the previous step and an impulse that acted on no body. Such
+///   rows can be recognised, and are left out, only if every step was written (output_frequency 1).
+///   Otherwise they are included, and remarks() reports this.
+/// * Force of a grain: m (v - v of the previous step) / step, if every step was written.
 ///
-/// Gravity is a Python function and not in the file. Units: as the run had them, SI by habit.
+/// The file does not contain gravity, which is a Python function, nor the units, usually SI.
 std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 {
   const auto names = archive_files(files.grains, "--grains");
   if (names.size() != 1) throw UsageError("--grains: a Siconos run is one HDF5 file");
-  silence();  // here, so that the library is set up once for both processes
+  silence();  // before open_apart(), so that the HDF5 library is set up once, for both processes
   return open_apart(names[0], [&] {
     return std::make_unique<SiconosArchive>(names[0], open_for_reading(names[0]));
   });
@@ -397,6 +397,6 @@ const ArchiveFormat siconos_format{
     .examples =
         "  grseg-import --format siconos --grains run.hdf5 --units si --gravity 9.81 \\\n"
         "    --slope 10 --cell x:-0.1:0.9 -o run.h5\n",
-    .notes = "  siconos: the file of the grains holds the contacts, too\n"};
+    .notes = "  siconos: the file of the grains also contains the contacts\n"};
 
 }  // namespace grseg

@@ -25,7 +25,7 @@ std::vector<Plane> sides_of_box(const std::vector<double>& size)
   return planes;
 }
 
-/// Adds the plane if all corners lie on one side of it, and it is not known yet.
+/// Adds the plane to `planes` if all corners lie on one side of it, unless it is already there.
 void add_side(const std::vector<Vec3>& corners, Plane plane, double length,
               std::vector<Plane>& planes)
 {
@@ -41,8 +41,8 @@ void add_side(const std::vector<Vec3>& corners, Plane plane, double length,
   planes.push_back(plane);
 }
 
-/// The sides of the hull of corners: in a plane the lines through two of them, in space the planes
-/// through three.
+/// The sides of the convex hull of corners: lines through two corners in a plane, planes through
+/// three corners in space.
 template <int D>
 std::vector<Plane> sides_of_hull(const std::vector<Vec3>& corners)
 {
@@ -64,7 +64,7 @@ std::vector<Plane> sides_of_hull(const std::vector<Vec3>& corners)
   return planes;
 }
 
-/// The attributes of one object of the file.
+/// Reads the attributes of one object of the file.
 class Attributes {
  public:
   Attributes(hid_t file, std::string object, const std::string& name)
@@ -84,14 +84,14 @@ class Attributes {
     if (value.empty()) lacks(key);
     return value;
   }
-  /// Two components in a plane run, three otherwise; what lies behind them is left out.
+  /// The first three numbers as a vector; z is 0 if there are two, as in a run in a plane.
   Vec3 vector(const std::string& key) const
   {
     const auto values = numbers(key);
     if (values.size() < 2) lacks(key);
     return {values[0], values[1], values.size() > 2 ? values[2] : 0};
   }
-  /// An angle about z in a plane run, a quaternion otherwise.
+  /// A rotation: an angle about z in a run in a plane, otherwise a quaternion.
   Eigen::Quaterniond rotation(const std::string& key) const
   {
     const auto q = numbers(key);
@@ -114,8 +114,8 @@ class Attributes {
   const std::string& name_;
 };
 
-/// Bullet's margin, by which it makes a hull in a plane thicker: as given to add_convex_shape, or 2 %
-/// of its smallest extent.
+/// Margin by which Bullet, Siconos' collision library, thickens a hull: the value passed to
+/// add_convex_shape, or 2 % of the hull's smallest extent.
 double margin_of(const std::vector<Vec3>& corners, hsize_t dimension, const Attributes& attributes)
 {
   Vec3 low = corners[0], high = low;
@@ -129,7 +129,7 @@ double margin_of(const std::vector<Vec3>& corners, hsize_t dimension, const Attr
   return (inside.empty() ? 0.02 * smallest : inside[0]) + (outside.empty() ? 0 : outside[0]);
 }
 
-/// The shape is the hull of points: add_convex_shape.
+/// Reads a shape that is the convex hull of points (add_convex_shape).
 void read_hull(hid_t file, const std::string& path, const std::string& at,
                const Attributes& attributes, SiconosBody& body)
 {
@@ -138,8 +138,8 @@ void read_hull(hid_t file, const std::string& path, const std::string& at,
   if (body.mass > 0) attributes.fail("is a convex hull: grains are Disk or Sphere");
   if (columns < 2 || columns > 3 || rows < 1 || rows > most_corners)
     attributes.fail(
-        fmt::format("is a hull of {} points with {} coordinates; up to {} with 2 or 3 are "
-                    "read",
+        fmt::format("is a hull of {} points with {} coordinates; at most {} points with 2 or 3 "
+                    "coordinates can be imported",
                     rows, columns, most_corners));
   std::vector<double> values(rows * columns);
   dataset.read_all(H5T_NATIVE_DOUBLE, values.data());
@@ -148,10 +148,10 @@ void read_hull(hid_t file, const std::string& path, const std::string& at,
     corners.emplace_back(values[k * columns], values[k * columns + 1],
                          columns == 3 ? values[k * columns + 2] : 0);
   for (const auto& corner : corners)
-    if (!corner.allFinite()) attributes.fail("holds a point that is not finite");
+    if (!corner.allFinite()) attributes.fail("contains a point that is not finite");
   body.planes = columns == 3 ? sides_of_hull<3>(corners) : sides_of_hull<2>(corners);
   body.margin = margin_of(corners, columns, attributes);
-  if (body.planes.size() <= columns) attributes.fail("has corners that span no body");
+  if (body.planes.size() <= columns) attributes.fail("has corners that span no area or volume");
 }
 
 void read_shape(hid_t file, const std::string& path, const std::string& shape, SiconosBody& body,
@@ -163,11 +163,11 @@ void read_shape(hid_t file, const std::string& path, const std::string& shape, S
   const auto primitive = attributes.text("primitive");
   const hdf5::CheckedDataset dataset(file, at, H5T_FLOAT, 2, path);
   if (dataset.dims()[0] != 1 || dataset.dims()[1] < 1 || dataset.dims()[1] > 3)
-    attributes.fail("does not hold the sides of one shape");
+    attributes.fail("does not contain the sizes of exactly one shape");
   std::vector<double> size(dataset.dims()[1]);
   dataset.read_all(H5T_NATIVE_DOUBLE, size.data());
   for (const double s : size)
-    if (!std::isfinite(s) || s <= 0) attributes.fail("holds a size that is not positive");
+    if (!std::isfinite(s) || s <= 0) attributes.fail("contains a size that is not positive");
   if (primitive == "Disk" || primitive == "Sphere") {
     body.radius = size[0];
     disc = primitive == "Disk";
@@ -188,7 +188,8 @@ SiconosBody read_body(hid_t file, const std::string& path, const std::string& na
   const Attributes attributes(file, at, path);
   const auto shapes = hdf5::names_in(file, at);
   if (shapes.size() != 1)
-    attributes.fail(fmt::format("has {} shapes, but only one is read", shapes.size()));
+    attributes.fail(
+        fmt::format("has {} shapes, but only bodies of one shape can be imported", shapes.size()));
   SiconosBody body;
   const auto id = attributes.numbers("id");
   if (id.size() != 1) attributes.lacks("id");
@@ -229,7 +230,7 @@ SiconosBodies read_siconos_bodies(hid_t file, const std::string& path)
         "{}: /data/input describes no grains; was it written by siconos.io.mechanics_run?", path));
   if (found_disc && found_sphere)
     throw FormatError(
-        fmt::format("{}: /data/ref has both discs and spheres, which is not read", path));
+        fmt::format("{}: /data/ref has both discs and spheres, which cannot be imported", path));
   bodies.discs = found_disc;
   std::sort(bodies.all.begin(), bodies.all.end(),
             [](const SiconosBody& a, const SiconosBody& b) { return a.id < b.id; });

@@ -10,38 +10,38 @@
 
 namespace grseg {
 
-/// A body of a Siconos run as /data/input describes it (mechanics_hdf5.py, add_object): a grain,
-/// or something that never moves.
+/// A grain or static body of a Siconos run, from /data/input (mechanics_hdf5.py, add_object).
 struct SiconosBody {
-  /// The body lies where normal . x <= distance.
+  /// A side of the body, whose points x fulfil normal . x <= distance.
   struct Plane {
     Vec3 normal;
     double distance = 0;
   };
-  std::int64_t id = 0;        // negative: static
-  double mass = 0;            // kg; 0: static
-  double radius = 0;          // m; 0: a box or a convex hull
-  std::vector<Plane> planes;  // of its sides, in its own axes
-  double margin = 0;          // by which the program may make a hull thicker
-  Vec3 position{0, 0, 0};     // of the shape's centre, at the beginning
+  std::int64_t id = 0;        // id; negative for a static body
+  double mass = 0;            // mass, kg; 0 for a static body
+  double radius = 0;          // radius, m; 0 for a box or a convex hull
+  std::vector<Plane> planes;  // sides of a box or hull, in the body's own axes
+  double margin = 0;          // thickness, m, that Siconos may add to a hull
+  Vec3 position{0, 0, 0};     // initial position of the shape's centre
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Vec3 velocity{0, 0, 0};  // at the beginning
+  Vec3 velocity{0, 0, 0};  // initial velocity
 };
 
 struct SiconosBodies {
-  std::vector<SiconosBody> all;  // in order of id: the static ones first
-  bool discs = false;            // false: spheres
+  std::vector<SiconosBody> all;  // bodies in order of id: static bodies first
+  bool discs = false;            // true: grains are discs, false: spheres
 };
 
-/// Grains are a Disk or a Sphere each, static bodies also a Box2d, a Box or a convex hull of points. FormatError naming the
-/// body where it is anything else, lacks an attribute or carries several shapes.
+/// Reads the bodies. A grain is a Disk or a Sphere; a static body may also be a Box2d, a Box or a
+/// convex hull of points. Throws FormatError naming the body if it has another shape or several
+/// shapes, or lacks an attribute.
 SiconosBodies read_siconos_bodies(hid_t file, const std::string& path);
 
-/// How far `point` is from the surface of `body`, which may be a margin thicker.
+/// Distance of `point` from the surface of `body`; 0 if it is within the margin of the surface.
 double distance_to_surface(const SiconosBody& body, const Vec3& point);
 
-/// Entry in `bodies.all` of the static body whose surface is nearest to `point`, if it is nearer
-/// than `distance`.
+/// Index in `bodies.all` of the static body whose surface is nearest to `point`; empty if none is
+/// nearer than `distance`.
 std::optional<std::size_t> static_body_at(const SiconosBodies& bodies, const Vec3& point,
                                           double distance);
 

@@ -10,19 +10,19 @@
 #include <algorithm>
 #include <cmath>
 
-/// The tables of a Siconos run: single precision, a row per body or contact, column 0 the time.
-/// Columns as siconos 4.4 writes them (mechanics_run.py).
+/// Readers for the tables of a Siconos run: single precision, a row per body or contact; column 0
+/// is the time. Columns as in siconos 4.4 (mechanics_run.py).
 namespace grseg::siconos {
 
 constexpr const char* written_by = "was it written by siconos.io.mechanics_run?";
 
-/// Two times of the tables that are the same one: single precision, two units in the last place.
+/// True if two times are equal to within two units in the last place of single precision.
 inline bool same_time(double a, double b)
 {
   return std::abs(a - b) <= 2.4e-7 * std::max(std::abs(a), std::abs(b));
 }
 
-/// FormatError, with `remedy` where there is no such table, unless a file of this size can hold it.
+/// Opens a table. Throws FormatError if it is missing (with `remedy`), or too large for the file.
 inline hdf5::CheckedDataset table_at(hid_t file, const std::string& at, const std::string& path,
                                      const char* remedy)
 {
@@ -33,7 +33,7 @@ inline hdf5::CheckedDataset table_at(hid_t file, const std::string& at, const st
   return table;
 }
 
-/// A table whose first column is time, read forward. Columns as in siconos 4.4, mechanics_run.py.
+/// Reads a table whose first column is the time, in the order of its rows.
 template <std::size_t columns>
 class TableInTime {
  public:
@@ -53,7 +53,7 @@ class TableInTime {
     return static_cast<double>(block_[at_][0]);
   }
 
-  /// Takes the rows of `time`, leaving out earlier ones; the number of the first of them.
+  /// Reads the rows at `time` and skips earlier rows. Returns the number of the first row read.
   hsize_t rows_of(double time, std::vector<Row>& rows)
   {
     rows.clear();
@@ -73,8 +73,8 @@ class TableInTime {
 
   hsize_t number_of_next() const { return done_ - block_.size() + at_; }
 
-  /// Reads on, without the rows of zeros (no body, no interaction) that the program leaves where a
-  /// table was made longer than what it had to say.
+  /// Reads the next block of rows. Skips rows of zeros at its start: Siconos leaves them if it made
+  /// a table longer than needed.
   bool fill()
   {
     do {
@@ -100,10 +100,10 @@ class TableInTime {
       throw FormatError(fmt::format("{}: row {} of {} {}", path_, number, table_.path(), why));
     };
     for (const float value : row)
-      if (!std::isfinite(value)) fail("holds a value that is not finite");
+      if (!std::isfinite(value)) fail("contains a value that is not finite");
     if (row == Row{}) return;
     if (static_cast<double>(row[0]) < latest_ && !same_time(static_cast<double>(row[0]), latest_))
-      fail("is earlier than the row before it; the file is damaged");
+      fail("is earlier than the previous row; the file is damaged");
     latest_ = static_cast<double>(row[0]);
   }
 
@@ -115,6 +115,7 @@ class TableInTime {
   double latest_ = -HUGE_VAL;
 };
 
+// The names in the comments are the columns.
 using Places = TableInTime<9>;      // time id x y z q0 q1 q2 q3
 using Velocities = TableInTime<8>;  // time id vx vy vz wx wy wz
 using Points = TableInTime<26>;     // time mu A[3] B[3] n[3] impulse[3] gap[3] u[3] r[3] id ds1 ds2

@@ -23,7 +23,7 @@ Waivers::Waivers(const std::vector<std::string>& texts)
     const auto name = equals == std::string::npos ? "balance" : text.substr(0, equals);
     const auto number = equals == std::string::npos ? text : text.substr(equals + 1);
     if (std::find(std::begin(check_names), std::end(check_names), name) == std::end(check_names))
-      throw UsageError(fmt::format("--accept-residual '{}': '{}' is not a check; they are {}",
+      throw UsageError(fmt::format("--accept-residual '{}': '{}' is not a check; the checks are {}",
                                    excerpt(text), excerpt(name), fmt::join(check_names, ", ")));
     double value = 0;
     if (!parse_finite(number, value) || !(value > 0))
@@ -73,7 +73,7 @@ std::string lines_with(const std::vector<Finding>& findings, Verdict verdict, co
 
 namespace {
 
-/// Sizes that differ by less are one size.
+/// Ratio of two sizes, below which they count as equal.
 constexpr double one_size = 1.05;
 
 const std::vector<double>& numbers(const Parameters& parameters, const std::string& name,
@@ -82,11 +82,11 @@ const std::vector<double>& numbers(const Parameters& parameters, const std::stri
   const auto found = parameters.numbers.find(name);
   if (found == parameters.numbers.end() || found->second.size() != size)
     throw FormatError(fmt::format(
-        "{}: /parameters/{} does not hold {} numbers: import the archive again", file, name, size));
+        "{}: /parameters/{} does not have {} numbers: import the archive again", file, name, size));
   return found->second;
 }
 
-/// `types` holds a line for each species.
+/// Sizes of the species that have grains; `types` has a line for each species.
 std::vector<SpeciesSizes> sizes_of(const Grains& grains, const SpeciesList& species,
                                    const std::string& types)
 {
@@ -138,9 +138,11 @@ CheckContext check_context(const Grains& grains, const SpeciesList& species,
 {
   CheckContext context;
   context.has_force = has_force;
-  const auto& gravity = parameters.numbers.at("gravity");
+  const auto found = parameters.numbers.find("gravity");
+  const bool in_space = found != parameters.numbers.end() && found->second.size() == 3;
+  const auto& gravity = numbers(parameters, "gravity", in_space ? 3 : 2, file);
   context.dimension = static_cast<int>(gravity.size());
-  context.gravity = {gravity.at(0), gravity.at(1), gravity.size() > 2 ? gravity[2] : 0};
+  context.gravity = {gravity[0], gravity[1], in_space ? gravity[2] : 0};
   const auto& axes = numbers(parameters, "import_directions", 9, file);
   for (std::size_t k = 0; k < 3; ++k)
     context.axes[k] = {axes[3 * k], axes[3 * k + 1], axes[3 * k + 2]};

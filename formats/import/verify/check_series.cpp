@@ -8,7 +8,7 @@
 namespace grseg {
 namespace {
 
-/// Calls `visit` with name, unit and place of every number of a moment.
+/// Calls `visit` with the name, the unit and a reference of every number of a CheckMoment.
 template <class Moment, class Visit>
 void visit_numbers(Moment& moment, const Visit& visit)
 {
@@ -50,10 +50,10 @@ void visit_numbers(Moment& moment, const Visit& visit)
   visit_sums("force", moment.force, "m2 s-4", "m4 s-8");
 }
 
-/// Text of six digits rounds contact forces by this fraction.
+/// Relative rounding error of contact forces in text of six digits.
 constexpr double digits = 1e-6;
-/// Largest part of the squares of y that a line may leave over, and the fewest grains that it is
-/// drawn through.
+/// Limits for a fitted slope: the largest unexplained fraction of the squares of y, and the
+/// smallest number of grains.
 constexpr double largest_rest = 0.1, fewest_grains = 3;
 
 struct Weighted {
@@ -69,8 +69,8 @@ Vec3 mean_of(const std::vector<Weighted>& values)
   return sum / weights;
 }
 
-/// Squared standard error of the mean. Of moments up to `lag` apart correlations are added, with
-/// weights that fall off to 0 (Newey and West 1987).
+/// Squared standard error of the mean. Includes correlations of frames up to `lag` apart, with
+/// weights that decrease to 0 (Newey and West 1987).
 double squared_error(const std::vector<Weighted>& values, const Vec3& mean, std::size_t lag)
 {
   double total = 0;
@@ -104,7 +104,7 @@ Estimate from_medians(const std::vector<Weighted>& values, double squared_within
   return estimate;
 }
 
-/// The findings of `find` in both halves of the series, where they `differ`.
+/// The results of `find` in both halves of the series, if they `differ`; otherwise empty.
 template <class Find, class Differ>
 auto differing_halves(const CheckSeries& series, const Find& find, const Differ& differ)
 {

@@ -17,23 +17,24 @@
 namespace grseg {
 namespace {
 
-/// Least part of the missing forces that a cause has to explain.
+/// Fraction of the missing forces (or grains) that a cause must explain, at least.
 constexpr double most = 0.8;
-/// Largest distance from a face of the bed of a grain that touches it, and smallest deep overlap, in
-/// units of the radius.
+/// Largest distance from a side of the bed for a grain at this side, and smallest overlap that
+/// counts as deep, in units of the radius.
 constexpr double at_face = 0.3, deep = 0.1;
-/// The missing force of a contact with a wall is along its normal at least by this part: friction
+/// Smallest normal component of a missing wall force, relative to its magnitude: allows friction
 /// coefficients up to 1.7.
 constexpr double along_normal = 0.5;
 
-/// One of the sides of the bed: the lower or upper end of an axis of the flow.
+/// A side of the bed: the lower or upper end along an axis of the flow.
 struct Side {
   int axis = 0;
   bool upper = false;
   double position = 0;
 };
 
-/// How far the near edge of a grain is outside; the largest of all grains is where the side lies.
+/// Outward coordinate of a grain's edge at this side; its largest value over all grains is the
+/// position of the side.
 double reach(const Imbalance& imbalance, std::size_t g, const Side& side)
 {
   const double x = imbalance.frame.position[g][side.axis], radius = imbalance.grains.radius[g];
@@ -84,7 +85,7 @@ std::string missing_walls(const Imbalance& imbalance, const std::vector<std::siz
     missing += size;
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const auto& side = sides[s];
-      // A missing force pushes away from the side: the opposite of the defect.
+      // The missing force, the opposite of the defect, pushes away from the side.
       const double push = (side.upper ? 1 : -1) * imbalance.defect[g][side.axis];
       if (reach(imbalance, g, side) < side.position - at_face * imbalance.grains.radius[g] ||
           push < along_normal * size)
@@ -102,7 +103,7 @@ std::string missing_walls(const Imbalance& imbalance, const std::vector<std::siz
       where += fmt::format("{}{} at the {}", where.empty() ? "" : "; ", count[s],
                            text_of(sides[s], axes[static_cast<std::size_t>(sides[s].axis)]));
   return fmt::format(
-      "{} a push away from it ({}): contacts with a wall are missing; "
+      "{} a force that pushes away from it ({}): contacts with a wall are missing; "
       "name the wall, as in --wall floor=z:0, or write its contacts",
       unbalanced.size() == 1
           ? "the only grain that does not balance is at a side of the bed and lacks"
@@ -138,22 +139,22 @@ std::size_t deeply_overlapping(const Grains& grains, const ContactList<3>& conta
                                                 [&](std::size_t g) { return is_deep[g]; }));
 }
 
-/// Least part of the squares of the missing forces that a cause has to explain.
+/// Fraction of the squares of the missing forces that a cause must explain, at least.
 constexpr double most_squares = 0.95;
-/// Grains that tell a drag from chance.
+/// Smallest number of grains for a fit of a drag.
 constexpr double fewest_dragged = 3;
-/// Gaps over the smaller radius within which partners are looked for, one after another.
+/// Largest gaps of pairs in the search for partners, tried in turn, over the smaller radius.
 constexpr double reaches[] = {0.02, 0.1, 0.3};
 
-/// A pair without a listed force, and the size of the force that it seems to bear, N.
+/// A pair without a listed force, and the magnitude of the force that it seems to transmit, N.
 struct PairForce {
   NearPair pair;
   double force = 0;
   bool pushes = false;
 };
 
-/// The forces between `pairs` that leave the least of the missing forces over (least squares), and
-/// the part of the squares that they explain on the grains that do not balance.
+/// Least-squares fit of the missing forces by forces between `pairs`. Returns these forces, and the
+/// fraction of the squares that they explain on the grains that do not balance.
 std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearPair>& pairs,
                                                          const Imbalance& imbalance)
 {
@@ -173,7 +174,7 @@ std::pair<std::vector<PairForce>, double> forces_between(const std::vector<NearP
         if (is_open(row(grain)))
           entries.emplace_back(3 * grain + axis, static_cast<int>(3 * k) + axis, sign);
   Eigen::SparseMatrix<double> sums(rows, columns);
-#ifndef __clang_analyzer__  // it takes impossible paths through Eigen
+#ifndef __clang_analyzer__  // the analyzer follows impossible paths through Eigen
   sums.setFromTriplets(entries.begin(), entries.end());
 #endif
   Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(sums);
@@ -217,13 +218,13 @@ std::string text_of(const Grains& grains, const std::vector<PairForce>& pairs)
       "smaller radius apart, opposite on the two grains (the largest: grains {} and {}): {}",
       pairs.size(), nearest, farthest, id(largest->pair.i), id(largest->pair.j),
       all_pull
-          ? "contacts that pull, also beyond touch, are not listed; write them, too"
+          ? "attractive contacts, also across gaps, are not listed; write them as well"
           : "bonds, or another interaction, act between grains, and the listed contacts lack their "
             "stress");
 }
 
-/// k of the drag -k x on each grain that leaves the least force missing on the grains that do not
-/// balance, and the part of the squares that it explains.
+/// Least-squares fit of a drag -k x to the missing forces of the grains that do not balance.
+/// Returns k, and the fraction of the squares that the drag explains.
 std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Imbalance& imbalance)
 {
   double xx = 0, xy = 0, all = 0, count = 0;
@@ -238,7 +239,7 @@ std::pair<double, double> drag_along(const std::vector<Vec3>& x, const Imbalance
   return {xy / xx, xy * xy / (xx * all)};
 }
 
-/// The force of a contact along its normal, and n cross the force.
+/// The normal n of a contact, the component of its force along n, and n cross the force.
 struct Split {
   Vec3 n;
   double normal;
@@ -270,7 +271,7 @@ std::vector<Vec3> angular_accelerations(const Grains& grains, const ContactList<
   return acceleration;
 }
 
-/// Largest ratio of friction to normal force: where it is reached, contacts slide.
+/// Largest ratio of friction to normal force; contacts with this ratio slide.
 double friction_of(const std::vector<Split>& forces)
 {
   double largest = 0;
@@ -293,8 +294,8 @@ std::string likely_cause(const Imbalance& imbalance, const std::array<AxisInArch
     const Vec3 &a = imbalance.defect[unbalanced[0]], &b = imbalance.defect[unbalanced[1]];
     if ((a + b).norm() < 0.1 * (a.norm() + b.norm()))
       return fmt::format(
-          "; the missing forces on grains {} and {} are opposite: their contact is missing, or has a "
-          "row too many",
+          "; the missing forces on grains {} and {} are opposite: "
+          "their contact is missing, or has one row too many",
           grains.id[unbalanced[0]], grains.id[unbalanced[1]]);
   }
   const auto walls = missing_walls(imbalance, unbalanced, axes);
@@ -304,8 +305,8 @@ std::string likely_cause(const Imbalance& imbalance, const std::array<AxisInArch
   const auto overlapping = deeply_overlapping(grains, contacts, unbalanced);
   if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
     return fmt::format(
-        "; {} of the {} grains that do not balance overlap others by more than {} of a radius: a bed "
-        "that is still being filled; begin later with --begin",
+        "; {} of the {} grains that do not balance overlap others by more than {} of a radius: the "
+        "bed may still be filling; begin later with --begin",
         overlapping, unbalanced.size(), deep);
   return "";
 }
@@ -314,7 +315,7 @@ UnlistedForces unlisted_forces(const Imbalance& imbalance)
 {
   const auto& [grains, box, frame, defect, limit] = imbalance;
   auto momentum = frame.velocity, weight = frame.velocity;
-  Vec3 missing = Vec3::Zero();  // over the mass, summed over grains
+  Vec3 missing = Vec3::Zero();  // sum over grains of defect over mass
   for (std::size_t g = 0; g < grains.size(); ++g) {
     momentum[g] *= grains.mass[g];
     if (imbalance.counts(g)) missing += defect[g] / grains.mass[g];
@@ -329,9 +330,9 @@ UnlistedForces unlisted_forces(const Imbalance& imbalance)
     return {
         fmt::format("; the missing force is {:.4g} times the {} of each grain, and opposes it: {}",
                     factor, name,
-                    as_weight ? "a drag on all grains, or another gravity, which cannot be told "
-                                "apart where grains move alike"
-                              : "a drag on all grains, which is no contact force and no other "
+                    as_weight ? "a drag on all grains, or another gravity; they cannot be "
+                                "distinguished if all grains have the same velocity"
+                              : "a drag on all grains, and neither a contact force nor another "
                                 "gravity"),
         !as_weight};
   }
@@ -354,7 +355,7 @@ LateDamping subtract_late_damping(const Grains& grains, const Frame<3>& frame, d
   const auto forces = split(contacts);
   const auto spin_up = angular_accelerations(grains, contacts, forces, inertia);
   const double friction = friction_of(forces);
-  // The force that is missing on every grain per unit of c_n and of c_t.
+  // Missing force on every grain per unit of the coefficients c_n and c_t.
   std::vector<Vec3> per_normal(grains.size(), Vec3::Zero()), per_tangential = per_normal;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = row(contacts.i[c]);

@@ -18,7 +18,7 @@ double largest(const CheckSeries& series, double CheckMoment::*number)
   return value;
 }
 
-/// A check of which each moment holds the measure: it passes up to `limit`.
+/// Finding of a check that passes if `measure` is at most `limit`.
 Finding within(const char* check, double measure, double limit, const std::string& sentence)
 {
   return {check, measure <= limit ? Verdict::passed : Verdict::failed, sentence, measure};
@@ -30,8 +30,9 @@ Finding judge_contacts(const CheckSeries& series)
   const double gap = largest(series, &CheckMoment::gap);
   auto finding = within(
       "contacts", std::max(distance, gap), widest_gap,
-      fmt::format("grains that bear a force on each other are up to {:.2g} of the smaller radius "
-                  "apart, and {:.2g} from where the archive states",
+      fmt::format("grains that exert a force on each other are up to {:.2g} of the smaller radius "
+                  "apart, and their distances differ by up to {:.2g} "
+                  "from those that the archive states",
                   gap, distance));
   if (distance > largest_distance) finding.verdict = Verdict::failed;
   return finding;
@@ -53,13 +54,13 @@ Finding judge_completeness(const CheckSeries& series)
   if (pairs == 0)
     return {"completeness", Verdict::passed, "grains that overlap are listed as contacts", 0};
   const auto sentence = fmt::format(
-      "up to {:.0f} pairs of a moment overlap, by up to {:.2g} of the smaller radius, "
+      "up to {:.0f} pairs of a frame overlap, by up to {:.2g} of the smaller radius, "
       "and are not listed as contacts",
       pairs, std::max(missing, may_part));
   if (missing > 0) return within("completeness", missing, 0, sentence);
   return {"completeness", Verdict::undecided,
           sentence +
-              ": they may be rigid grains that part, or contacts may be missing; write forces "
+              ": they may be rigid grains that separate, or contacts may be missing; write forces "
               "on grains, or consecutive steps",
           may_part};
 }
@@ -67,14 +68,15 @@ Finding judge_completeness(const CheckSeries& series)
 std::string why_balance_is_open(const CheckSeries& series)
 {
   if (series.size() < 2)
-    return "a single moment has no accelerations to compare the contact forces with; write forces "
+    return "a single frame has no accelerations to compare the contact forces with; write forces "
            "on grains, or several steps";
   std::vector<double> changes;
   for (std::size_t k = 1; k < series.size(); ++k) changes.push_back(series[k].change);
   return fmt::format(
-      "it cannot be judged at this interval: there are no forces on grains, and from one moment to "
-      "the next the contact forces on a grain change by {:.2g} of their size, so that accelerations "
-      "do not follow from velocities; write forces on grains, or consecutive steps",
+      "it cannot be judged at this interval between frames: the archive has no forces on grains, "
+      "and from one frame to the next the contact forces on a grain change by {:.2g} of their "
+      "size, so that accelerations do not follow from velocities; "
+      "write forces on grains, or consecutive steps",
       median(changes));
 }
 
@@ -92,16 +94,16 @@ Finding judge_balance(const CheckSeries& series, const CheckContext& context)
     return {"balance", Verdict::undecided,
             fmt::format(
                 "most grains balance, but {:.3g} of the largest force is missing on one: grains "
-                "may have collided between two moments, or contacts with a wall are missing; "
+                "may have collided between two frames, or contacts with a wall are missing; "
                 "write forces on grains, or consecutive steps",
                 worst),
             worst};
   return within("balance", measure, context.tolerance,
-                fmt::format("up to {:.3g} of the largest force is missing on a grain, at {} {}",
-                            measure, moments, moments == 1 ? "moment" : "moments"));
+                fmt::format("up to {:.3g} of the largest force is missing on a grain, in {} {}",
+                            measure, moments, moments == 1 ? "frame" : "frames"));
 }
 
-/// Largest factor by which a nominal diameter may lie outside the diameters of its grains.
+/// Largest factor by which a nominal diameter may differ from the nearest diameter of its grains.
 constexpr double largest_factor = 1.5;
 
 std::string named(const SpeciesSizes& species)
@@ -128,7 +130,8 @@ Finding undecided_time(const CheckContext& context, const std::string& why)
   return {"time", Verdict::undecided, why, 0};
 }
 
-/// Where an archive has both, the time between its moments over the number of steps.
+/// Compares the step with the time between frames over the number of steps, if the archive states
+/// times and steps; a finding only if they differ.
 std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContext& context)
 {
   if (!context.times_are_own || !context.steps_are_own || series.size() < 2) return std::nullopt;
@@ -155,7 +158,7 @@ std::vector<Finding> judge(const CheckSeries& series, const CheckContext& contex
       within("overlap", overlap, deepest_overlap,
              fmt::format("grains overlap by up to {:.2g} of the smaller radius", overlap)),
       within("pull", pull, largest_pull,
-             fmt::format("up to {:.2g} of the normal force of a moment pulls", pull)),
+             fmt::format("up to {:.2g} of the normal force of a frame is attractive", pull)),
       judge_balance(series, context),
       gravity,
       judge_masses(series, context, gravity),
@@ -207,17 +210,17 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
   const auto slope = slope_of(sums_of(series, &CheckMoment::motion));
   if (series.size() < 2)
     return undecided_time(context,
-                          "a single moment has no displacements to compare velocities with");
+                          "a single frame has no displacements to compare velocities with");
   if (!slope)
     return undecided_time(
         context,
-        "too few grains keep their velocity from one moment to the next to compare "
+        "too few grains have a steady velocity from one frame to the next to compare "
         "displacements with velocities");
   if (const auto change = change_of_slope(series, &CheckMoment::motion))
     return {
         "time", Verdict::failed,
         fmt::format("displacements are {:.4g} times velocity times time in the first half of the "
-                    "moments and {:.4g} times in the second: the time between moments, or a "
+                    "frames and {:.4g} times in the second: the time between frames, or a "
                     "unit, changes within the archive",
                     change->first.value, change->second.value),
         std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1))};
@@ -240,14 +243,14 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
                           context.step / context.units.time),
         off};
   if (off > slope_tolerance || unsure > sharp_slope) {
-    auto finding = undecided_time(context, sentence + ", which is too much to tell");
+    auto finding = undecided_time(context, sentence + ", which is too large for a verdict");
     finding.measure = off;
     return finding;
   }
   if (context.step_is_given && !context.steps_are_own)
     return {"time", Verdict::undecided,
-            fmt::format("{}; but the times are the archive's own, and nothing in it tells whether "
-                        "a step is {:.4g}",
+            fmt::format("{}; but the archive states times and no steps, so "
+                        "a step of {:.4g} cannot be checked",
                         sentence, context.step / context.units.time),
             off};
   return {"time", Verdict::passed, sentence, off};

@@ -12,15 +12,15 @@
 namespace grseg {
 namespace {
 
-/// An error of gravity by three degrees has to be seen: it is this part of gravity. What is nearer
-/// to it than to 0 is called wrong; a standard error of a third of that leaves three of them on
-/// either side.
+/// An error of gravity by three degrees, as a fraction of gravity, must be detected. Deviations
+/// above half of it (`tolerance`) are wrong. The standard error may be a third of the tolerance
+/// (`sharp`), so that three standard errors separate the tolerance from 0 and from three degrees.
 constexpr double three_degrees = 0.0523, tolerance = three_degrees / 2, sharp = tolerance / 3;
 
-/// Smaller differences come from the digits of --gravity.
+/// Smallest relative difference of gravity to report; smaller ones are round-off of --gravity.
 constexpr double smallest_difference = 1e-3;
 
-/// Where contacts accelerate grains by a hundred times more than gravity, gravity does not matter.
+/// Smallest gravity that matters, relative to the accelerations by contacts.
 constexpr double negligible = 0.01;
 
 double degrees(double radians)
@@ -35,7 +35,7 @@ Vec3 in_the_archive(const CheckContext& context, const Vec3& gravity)
   return vector / context.units.acceleration();
 }
 
-/// "9.8 along (0.391, -0.921, 0), slope 23.0 degrees", in the archive's units and axes.
+/// Gravity in the archive's units and axes: "9.8 along (0.391, -0.921, 0), slope 23.0 degrees".
 std::string text_of(const CheckContext& context, const Vec3& gravity)
 {
   const Vec3 vector = in_the_archive(context, gravity);
@@ -58,7 +58,7 @@ double median_acceleration(const CheckSeries& series)
   return median(values);
 }
 
-/// Options of the command line that would agree with the archive.
+/// Possible causes of a wrong gravity, with the option that would agree with the archive.
 std::string remedy(const CheckContext& context, const Estimate& estimate)
 {
   const Vec3& found = estimate.value;
@@ -68,10 +68,10 @@ std::string remedy(const CheckContext& context, const Estimate& estimate)
       fmt::format("--gravity {:.4g},{:.4g},{:.4g}", vector.x(), vector.y(), vector.z());
   std::vector<std::string> ways{
       context.gravity_is_given
-          ? fmt::format("gravity is another ({})", option)
-          : fmt::format("the archive states another gravity than its grains felt ({})", option)};
+          ? fmt::format("the given gravity is wrong ({})", option)
+          : fmt::format("the archive states another gravity than that of its grains ({})", option)};
   const double ratio = found.norm() / given.norm();
-  // As far as their directions are known.
+  // Directions are compared to within the error of the estimate, at least `sharp`.
   const double angle = std::max(sharp, 3 * estimate.error / found.norm());
   const bool same_way =
       found.dot(given) > std::cos(std::min(angle, 0.5)) * found.norm() * given.norm();
@@ -89,10 +89,10 @@ std::string remedy(const CheckContext& context, const Estimate& estimate)
 
 std::string source(const Estimate& found)
 {
-  return fmt::format(
-      "from {} {:.0f} grains at {} {}", found.medians ? "the median over" : "the sum over",
-      found.grains, found.moments,
-      found.medians ? (found.moments == 1 ? "moment" : "moments") : "pairs of moments");
+  return fmt::format("from {} {:.0f} grains in {} {}",
+                     found.medians ? "the median over" : "the sum over", found.grains,
+                     found.moments,
+                     found.medians ? (found.moments == 1 ? "frame" : "frames") : "pairs of frames");
 }
 
 Finding turning(const CheckSeries& series, const CheckContext& context,
@@ -103,7 +103,8 @@ Finding turning(const CheckSeries& series, const CheckContext& context,
   return {
       "gravity", Verdict::failed,
       fmt::format("gravity changes within the archive, from {} (t = {:.6g} to {:.6g}) to {} (t = "
-                  "{:.6g} to {:.6g}): import moments of one gravity, with --begin and --end",
+                  "{:.6g} to {:.6g}): import the frames of one "
+                  "gravity only, with --begin and --end",
                   text_of(context, halves.first.value), time(0), time(middle - 1),
                   text_of(context, halves.second.value), time(middle), time(series.size() - 1)),
       (halves.second.value - halves.first.value).norm() / scale};
@@ -116,14 +117,14 @@ Finding undecided_gravity(const CheckContext& context, const std::string& why)
   return {"gravity", Verdict::undecided, why, 0};
 }
 
-/// Part of a judgement on masses: undecided where nothing can be told.
+/// A finding of one of the two methods that check the masses.
 Finding part(Verdict verdict, const std::string& sentence, double measure = 0)
 {
   return {"masses", verdict, sentence, measure};
 }
 
-/// Compares weight over mass between smaller and larger grains. Spheres for discs make this ratio
-/// the ratio of sizes: a value nearer to that than to 1 is called wrong.
+/// Compares weight over mass between smaller and larger grains: the ratio should be 1. If spheres
+/// are taken for discs, it is the ratio of sizes; a value nearer to that than to 1 is wrong.
 Finding by_size(const CheckSeries& series, const CheckContext& context)
 {
   if (!(context.size_ratio > 1)) return part(Verdict::undecided, "all grains have one size");
@@ -149,17 +150,18 @@ Finding by_size(const CheckSeries& series, const CheckContext& context)
         sentence + (context.masses_are_given
                         ? ": are they discs rather than spheres, or spheres rather than discs "
                           "(--grains-are)? Or do their densities differ?"
-                        : ": the archive states other masses than its grains had"),
+                        : ": the archive states other masses than those of its grains"),
         std::abs(ratio - 1));
   if (off <= wrong / 2 && 3 * error <= wrong / 2)
     return part(Verdict::passed, sentence, std::abs(ratio - 1));
   return part(Verdict::undecided,
-              fmt::format("{}: discs could not be told from spheres (a factor of {:.3g})", sentence,
-                          context.size_ratio),
+              fmt::format("{}: too inaccurate to distinguish discs "
+                          "from spheres (a factor of {:.3g})",
+                          sentence, context.size_ratio),
               std::abs(ratio - 1));
 }
 
-/// Forces over accelerations where both are known.
+/// Compares force over acceleration with the mass, for grains with a known acceleration.
 Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 {
   const auto slope = slope_of(sums_of(series, &CheckMoment::force));
@@ -167,11 +169,11 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
     return part(
         Verdict::failed,
         fmt::format("force over acceleration is {:.4g} times the mass in the first half of the "
-                    "moments and {:.4g} times in the second: masses, or a unit, change within "
+                    "frames and {:.4g} times in the second: masses, or a unit, change within "
                     "the archive",
                     change->first.value, change->second.value),
         std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1)));
-  if (!slope) return part(Verdict::undecided, "force over acceleration cannot be formed");
+  if (!slope) return part(Verdict::undecided, "force over acceleration cannot be computed");
   const double off = std::abs(slope->value - 1), unsure = slope->uncertainty();
   const auto sentence = fmt::format(
       "force over acceleration is {:.4g} times the mass, with a standard error of {:.2g}",
@@ -187,7 +189,7 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
             1 / slope->value),
         off);
   if (off <= slope_tolerance && unsure <= sharp_slope) return part(Verdict::passed, sentence, off);
-  return part(Verdict::undecided, sentence + ", which is too much to tell", off);
+  return part(Verdict::undecided, sentence + ", which is too large for a verdict", off);
 }
 
 }  // namespace
@@ -197,13 +199,14 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
   const auto found = gravity_from(series, &CheckMoment::all);
   if (!found)
     return undecided_gravity(
-        context, fmt::format("without forces on grains it takes {} pairs of moments, or moments "
-                             "close together, to tell gravity from the grains",
+        context, fmt::format("without forces on grains, an estimate of gravity needs {} pairs of "
+                             "frames, or frames close together",
                              fewest_pairs));
   const double scale = std::max(
       {context.gravity.norm(), found->value.norm(), negligible * median_acceleration(series)});
   if (!(scale > 0))
-    return {"gravity", Verdict::passed, "there is none, and the grains feel none", 0};
+    return {"gravity", Verdict::passed, "gravity is 0, as given and by the motion of the grains",
+            0};
   if (const auto change = change_of_gravity(series, tolerance * scale))
     return turning(series, context, *change, scale);
   const double measure = (found->value - context.gravity).norm() / scale;
@@ -228,7 +231,7 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
             measure};
   }
   auto finding =
-      undecided_gravity(context, suggestion + ": an error of 3 degrees would not be seen");
+      undecided_gravity(context, suggestion + ": an error of 3 degrees would not be detected");
   finding.measure = measure;
   return finding;
 }
@@ -259,8 +262,8 @@ Finding judge_masses(const CheckSeries& series, const CheckContext& context, con
                   relative.sentence + "; their weight agrees with gravity as given");
   return answer(
       Verdict::undecided,
-      "they come from --density, and the archive shows the weight, mass times gravity, alone: a "
-      "density and a gravity that are both wrong could not be told; " +
+      "they come from --density, and the archive shows only the weight, mass times gravity: errors "
+      "of density and gravity that cancel would not be detected; " +
           relative.sentence);
 }
 

@@ -10,22 +10,21 @@
 namespace grseg {
 namespace {
 
-/// A force that changes by less than this fraction between two moments is taken for steady: then
-/// its mean of the two differs by at most half of it from the mean over the time between them.
+/// A force or velocity is steady if it changes by less than this fraction between two frames. Their
+/// mean then differs from the mean over the time between them by at most half of this fraction.
 constexpr double steady = 0.2;
-/// Largest deviation of the change of velocity in free flight from the force's direction, as a
-/// sine.
+/// Sine of the largest angle between the change of velocity in free flight and the force.
 constexpr double along = 0.05;
-/// A bed at rest swings to and fro, by less than its grains overlap, and may be seen in any phase:
-/// the mean velocity of two moments is then not that between them. That cannot be where grains have
-/// moved by this part of a diameter (root mean square), or within this number of steps, which are
-/// half of a collision.
+/// A bed at rest oscillates, with amplitudes below the overlaps, and frames may show any phase: the
+/// mean velocity of two frames is then not the mean over the time between them. Oscillation is
+/// excluded if grains have moved by has_moved diameters (root mean square), or if the frames are at
+/// most no_swing steps apart, which is half of a collision.
 constexpr double has_moved = 0.1;
 constexpr std::int64_t no_swing = 10;
-/// Part of a period that a grain may move where images of positions are missing.
+/// Largest displacement of a grain, as a fraction of the period, if the archive has no images.
 constexpr double share_of_period = 0.25;
-/// From the median absolute deviation to the standard deviation of a normal distribution, and from
-/// that to the standard error of its median times the root of the number of values.
+/// For a normal distribution: standard deviation over median absolute deviation; and standard error
+/// of the median, times the root of the number of values, over standard deviation.
 constexpr double deviation_of_normal = 1.4826, error_of_median = 1.2533;
 
 bool is_steady(const Vec3& before, const Vec3& now)
@@ -39,7 +38,7 @@ bool is_along(const Vec3& change, const Vec3& force)
   return change.dot(force) > std::sqrt(1 - along * along) * change.norm() * force.norm();
 }
 
-/// Sum of the sizes of the contact forces on each grain.
+/// Sum of the magnitudes of the contact forces on each grain.
 std::vector<double> sizes_of_forces(std::size_t grains, const ContactList<3>& contacts)
 {
   std::vector<double> sizes(grains);
@@ -95,8 +94,8 @@ bool MomentStatistics::is_in(Group group, std::size_t grain) const
   return split_ > 0 && (grains_.radius[grain] >= split_) == (group == Group::larger);
 }
 
-/// The force in the motion of every grain that its contacts do not explain, over its mass: gravity.
-/// NaN where it cannot be known or where a wall takes part.
+/// Acceleration of every grain minus its contact forces over mass: an estimate of gravity. NaN if
+/// it is unknown, or if a wall's force was inferred from the grain.
 auto MomentStatistics::weights(const Frame<3>& frame, const Vectors& sums,
                                const std::optional<MomentBefore>& before) const -> Vectors
 {
@@ -136,7 +135,7 @@ GravityEstimate MomentStatistics::by_median(Group group, const Vectors& weights)
   return estimate;
 }
 
-/// Weighted with masses, so that the forces between the grains of a group cancel.
+/// Mean over the grains of a group, weighted by mass, so that the forces between them cancel.
 GravityEstimate MomentStatistics::by_mean(Group group, const Vectors& weights) const
 {
   GravityEstimate estimate;
@@ -161,7 +160,7 @@ double MomentStatistics::acceleration(const Frame<3>& frame) const
   return median(values);
 }
 
-/// Grains that bore no contact force at either moment.
+/// True for each grain without contact force in both frames.
 std::vector<bool> free_grains(const Frame<3>& frame, const std::vector<Vec3>& sums,
                               const MomentBefore& before)
 {
@@ -172,8 +171,8 @@ std::vector<bool> free_grains(const Frame<3>& frame, const std::vector<Vec3>& su
   return is_free;
 }
 
-/// Displacements and velocities of grains whose velocity is steady or has changed along the force of
-/// a free flight, for which the mean velocity of the two moments is that over the time between them.
+/// Adds displacements and velocities of grains whose velocity is steady, or changes along the force
+/// in free flight: then the mean velocity of two frames is the mean over the time between them.
 void MomentStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const MomentBefore& before,
                                   const std::vector<bool>& is_free, bool has_images) const
 {
@@ -202,8 +201,8 @@ void MomentStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const M
     all += sums;
 }
 
-/// Forces and accelerations of grains whose force is steady and which are free or seen at every step:
-/// over a collision the mean of two forces is less than the force between.
+/// Adds forces and accelerations of grains with a steady force that have no contacts, or if frames
+/// are consecutive steps: in a collision the mean of two forces is less than the force between.
 void MomentStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame,
                                    const MomentBefore& before,
                                    const std::vector<bool>& is_free) const

@@ -9,33 +9,34 @@
 
 namespace grseg {
 
-/// A moment as the next one remembers it.
+/// The previous frame, and sums of its forces.
 struct MomentBefore : Frame<3> {
-  std::vector<Vec3> sums;  // contact forces on each grain
+  std::vector<Vec3> sums;  // sum of the contact forces on each grain
 };
 
 /// Sum of the contact forces on each grain; `forces` has an entry for each contact.
 std::vector<Vec3> contact_sums(std::size_t grains, const ContactList<3>& contacts,
                                const std::vector<Vec3>& forces);
 
-/// How much the sums of contact forces have changed from one moment to the next, over the sizes of
-/// the contact forces; medians over grains with contacts. 0 where there are no contacts.
+/// Relative change of the contact forces from one frame to the next: median change of a grain's sum
+/// over the median of its summed magnitudes, for grains with contacts. 0 without contacts.
 double change_of_sums(const Grains& grains, const Frame<3>& frame, const std::vector<Vec3>& before,
                       const std::vector<Vec3>& now);
 
-/// Computes what of a moment is about weights, inertia and displacements: everything from
-/// `acceleration` on. In any consistent units.
+/// Computes the numbers of a CheckMoment about weights, inertia and displacements: from
+/// `acceleration` to the end. In any consistent units.
 class MomentStatistics {
  public:
   MomentStatistics(const Grains& grains, const Box& box);
 
-  /// `before` is empty for the first moment, and `close` says whether it is close to this one.
-  /// `has_images`: images of positions are the archive's.
+  /// Fills in these numbers. `sums` are the contact forces on each grain. `before` is the previous
+  /// frame, empty for the first one. `close`: both frames are close together (judge.hpp).
+  /// `has_images`: the archive states images.
   void add_to(CheckMoment& moment, const Frame<3>& frame, const std::vector<Vec3>& sums,
               const std::optional<MomentBefore>& before, bool close, bool has_images) const;
 
-  /// Grains, by row, that tell nothing of weights: their balance is not independent of gravity.
-  /// Referred to, and empty or as many as there are grains at each call of add_to.
+  /// Excludes grains (flags by row) from weights, because their balance was used to infer a wall's
+  /// force. Stores a reference; at each call of add_to the vector is empty or has all grains.
   void leave_out(const std::vector<std::uint8_t>& grains) { left_out_ = &grains; }
 
  private:
@@ -56,7 +57,7 @@ class MomentStatistics {
   const std::vector<std::uint8_t>* left_out_ = nullptr;
   const Grains& grains_;
   Box box_;
-  double split_ = 0, diameter_ = 0;  // of sizes; mean of mobile grains
+  double split_ = 0, diameter_ = 0;  // split_of_sizes(); mean diameter of mobile grains
 };
 
 }  // namespace grseg

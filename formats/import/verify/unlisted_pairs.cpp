@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// A present grain; whether it is mobile.
+/// A grain that is present in the frame.
 struct Present {
   Vec3 x;
   double radius = 0;
@@ -24,7 +24,7 @@ struct Present {
   bool mobile = false;
 };
 
-/// The present grains by cells of one size, a few of them in each.
+/// The present grains, sorted into cubic cells with a few grains each.
 class Cells {
  public:
   using Place = std::array<std::ptrdiff_t, 3>;
@@ -43,16 +43,17 @@ class Cells {
       high_ = high_.cwiseMax(frame.position[g]);
     }
     if (grains_.empty()) return;
-    // No more cells than a few for each grain, however far apart grains are.
+    // At most a few cells per grain, however far apart the grains are.
     const double limit = 8 * static_cast<double>(grains_.size()) + 64;
     for (side_ = 2 * median(radii); !(cells_of(high_) <= limit);) side_ *= 2;
     sort();
   }
 
-  /// In the order of their cells.
+  /// The present grains, in the order of their cells.
   const std::vector<Present>& grains() const { return grains_; }
 
-  /// use(grain) for each grain in the cells that a box meets, from the grain `beyond` on.
+  /// Calls use(grain) for each grain, from index `beyond` on, in the cells that the box `from`,
+  /// `to` meets.
   template <class Use>
   void for_each_in(const Vec3& from, const Vec3& to, std::size_t beyond, const Use& use) const
   {
@@ -60,7 +61,7 @@ class Cells {
     const Place first = place(from.cwiseMax(low_)), last = place(to.cwiseMin(high_));
     for (auto z = first[2]; z <= last[2]; ++z)
       for (auto y = first[1]; y <= last[1]; ++y) {
-        // Cells along the first axis follow one another.
+        // Cells along the first axis are adjacent in memory.
         const auto end = begins_[index({last[0], y, z}) + 1];
         for (auto k = std::max(begins_[index({first[0], y, z})], beyond); k < end; ++k)
           use(grains_[k]);
@@ -109,11 +110,11 @@ class Cells {
   Vec3 low_, high_;
   double side_ = 0;
   Place counts_{};
-  std::vector<std::size_t> begins_;  // of each cell in grains_, and the end
+  std::vector<std::size_t> begins_;  // index in grains_ of each cell's first grain, and the end
   std::vector<Present> grains_;
 };
 
-/// The vectors by which a grain is shifted to meet others across a period, 0 among them.
+/// Vectors from a grain to its periodic images, including 0.
 std::vector<Vec3> shifts(const Box& box)
 {
   std::vector<Vec3> all{Vec3::Zero()};
@@ -126,16 +127,17 @@ std::vector<Vec3> shifts(const Box& box)
   return all;
 }
 
-/// Surfaces of one rigid body may be this far apart, over the smaller radius.
+/// Largest gap between grains of one rigid body, over the smaller radius.
 constexpr double widest = 0.05;
-/// Relative difference of two motions that are the same: six digits of velocities, of which the
-/// rotation is a hundredth.
+/// Relative difference up to which two motions count as equal. Velocities have six digits, and the
+/// rotation may be a hundredth of them.
 constexpr double same_motion = 1e-4;
 
 constexpr double errors = 3, part_of_median = 0.25;
 
-/// True where two grains move as one body: with equal spins and with the velocities that these
-/// make. Without any spin, if they are `joined`: true where they move, but not along their branch.
+/// True if two grains move as one rigid body: equal angular velocities, and the relative velocity
+/// that these imply. If angular velocities are 0 and the grains are `joined`: true if they move
+/// relative to each other, but not along their branch.
 bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
 {
   const auto i = row(pair.i), j = row(pair.j);
@@ -150,9 +152,9 @@ bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, b
   return (relative - turning).norm() <= same_motion * spin * branch.norm();
 }
 
-/// True where normal forces grow with overlaps, by their rank correlation. Per moment it was 0.79
-/// to 1 in archives of soft grains (LAMMPS, LIGGGHTS, YADE) and 0.04 to 0.66 in runs of contact
-/// dynamics, where overlaps are left over from earlier steps; 100 contacts know it to 0.1.
+/// True if normal forces grow with overlaps, by their rank correlation. In single frames it was
+/// 0.79 to 1 in archives of soft grains (LAMMPS, LIGGGHTS, YADE), and 0.04 to 0.66 in contact
+/// dynamics, where overlaps remain from earlier steps. From 100 contacts it is accurate to 0.1.
 bool forces_grow_with_overlaps(const ContactList<3>& contacts)
 {
   constexpr double soft = 0.75;
@@ -196,7 +198,7 @@ std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Fra
     const auto own = static_cast<std::size_t>(&large - present.data());
     for (const auto& shift : all_shifts) {
       const Vec3 x = large.x + shift;
-      // The larger of two grains finds the other, the first of two that are equal.
+      // Each pair is found once: by the larger grain, or, for equal sizes, by the first one.
       const auto beyond = large.radius == smallest ? own + 1 : 0;
       cells.for_each_in(x - reach, x + reach, beyond, [&](const Present& small) {
         if (small.radius > large.radius) return;
@@ -210,7 +212,7 @@ std::vector<NearPair> near_pairs(const Grains& grains, const Box& box, const Fra
       });
     }
   }
-  // Through a narrow period two grains may be near in two ways: the nearest counts.
+  // In a short periodic cell two grains may be neighbours twice; only the nearest images count.
   const auto order = [](const NearPair& a, const NearPair& b) {
     return std::tuple(a.i, a.j, a.gap) < std::tuple(b.i, b.j, b.gap);
   };

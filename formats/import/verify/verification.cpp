@@ -70,7 +70,7 @@ std::optional<Complaint> Verification::check(const Frame<3>& frame, bool has_ima
   return complaint;
 }
 
-/// Rows of grains; negative for a wall.
+/// Names a pair in a message, by ids. `i` and `j` are rows of grains, or negative for a wall.
 std::string Verification::pair_of(std::int32_t i, std::int32_t j) const
 {
   if (i < 0) std::swap(i, j);
@@ -79,7 +79,7 @@ std::string Verification::pair_of(std::int32_t i, std::int32_t j) const
   return fmt::format("grains {} and {}", first, grains_.id[row(j)]);
 }
 
-/// Contacts that carry force must join grains that touch. Wall contacts are not checked.
+/// Checks that contacts with a force join grains that touch. Contacts with walls are not checked.
 std::optional<Complaint> Verification::geometry(const Frame<3>& frame)
 {
   const auto& contacts = frame.contacts;
@@ -99,7 +99,7 @@ std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size
   const double radii = grains_.radius[i] + grains_.radius[j];
   const auto between = minimum_image(box_, frame.position[i] - frame.position[j]);
   const double stated = radii + contacts.gap[c], apart = between.norm();
-  // Contact dynamics finds contacts where a step begins; grains may part until it ends.
+  // Contact dynamics finds contacts at the beginning of a step; grains may separate until its end.
   const double parted = (frame.velocity[i] - frame.velocity[j]).norm() * accuracy_.step;
   const double gap = (contacts.gap[c] - parted) / smaller;
   const double overlap = -contacts.gap[c] / smaller;
@@ -114,7 +114,7 @@ std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size
         "contacts",
         fmt::format(
             "{} are listed as touching, but their centres are {:.6g} apart and the radii add up "
-            "to {:.6g}{}: are i and j their ids, and is the cell periodic as the archive says?",
+            "to {:.6g}{}: are i and j their ids, and is the cell periodic as the archive states?",
             pair_of(contacts.i[c], contacts.j[c]), apart, radii,
             as_stated ? "" : fmt::format(" while the archive states a distance of {:.6g}", stated)),
         true};
@@ -123,9 +123,9 @@ std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size
         "overlap",
         fmt::format(
             "{} overlap by {:.2g} of the smaller radius: their centres are {:.6g} apart and "
-            "the radii add up to {:.6g}: are radii and ids read as they are meant? Where "
-            "grains are that soft, or a bed is being filled, --accept-residual overlap={:.1g} "
-            "imports it",
+            "the radii add up to {:.6g}: are radii and ids read correctly? If "
+            "grains are that soft, or the bed is still filling, "
+            "--accept-residual overlap={:.1g} accepts it",
             pair_of(contacts.i[c], contacts.j[c]), overlap, apart, radii,
             std::ceil(overlap * 10) / 10),
         true};
@@ -151,9 +151,9 @@ std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
     return Complaint{
         "completeness",
         fmt::format(
-            "{:.0f} % of the grains move as one body with a neighbour without a contact (the first: "
-            "{}): rigid bodies of several grains are not supported, since the forces inside them are "
-            "unknown",
+            "{:.0f} % of the grains move as one body with a neighbour without a contact (the "
+            "first: {}): rigid bodies of several grains are not supported, "
+            "because the forces inside them are unknown",
             100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j))};
   if (moment_.unlisted > limit && moment_.unlisted_may_part == 0)
     return Complaint{"completeness", missing_rows_of(found), true};
@@ -174,8 +174,8 @@ std::string Verification::missing_rows_of(const UnlistedPairs& found) const
       "out by --accept-residual completeness={:.1g}",
       what,
       at_base == 0       ? ""
-      : at_base == pairs ? ": rows with the base are missing"
-                         : fmt::format(": {} rows with the base are missing, too", at_base),
+      : at_base == pairs ? ": contacts with the base are missing"
+                         : fmt::format(": {} of them are contacts with the base", at_base),
       std::ceil(-deepest.gap * 10) / 10);
 }
 
@@ -212,20 +212,20 @@ auto Verification::sums_as(const Frame<3>& frame, const Reading& reading) const 
   return sums;
 }
 
-/// Longest way of a grain since the moment before, by its faster velocity, in radii.
+/// Largest possible displacement, in radii, since the previous frame, by the faster velocity.
 double Verification::longest_path(const Frame<3>& frame) const
 {
   double longest = 0;
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     const double speed = std::max(frame.velocity[g].norm(), before_->velocity[g].norm());
-    if (is_mobile(grains_, frame, g) && speed > 0)  // not where it was absent
+    if (is_mobile(grains_, frame, g) && speed > 0)
       longest = std::max(longest, speed * (frame.time - before_->time) / grains_.radius[g]);
   }
   return longest;
 }
 
-/// How many times as far most grains have moved since the moment before as their velocities allow.
-/// 0 where they have moved by less than a thousandth of their radius, which digits may do.
+/// Median displacement since the previous frame, over the median that the velocities allow. 0 if it
+/// is less than a thousandth of the radius, which may be round-off of the text.
 double Verification::too_far(const Frame<3>& frame) const
 {
   std::vector<double> moved, expected;
@@ -241,8 +241,8 @@ double Verification::too_far(const Frame<3>& frame) const
   return way > 1e-3 ? way / allowed : 0;
 }
 
-/// Complains of two moments with consecutive steps between which grains have moved farther than
-/// their velocities allow.
+/// Complains if grains have moved farther than their velocities allow between two frames with
+/// consecutive step numbers.
 std::optional<Complaint> Verification::distance_moved(const Frame<3>& frame) const
 {
   if (!before_ || frame.step != before_->step + 1) return std::nullopt;
@@ -251,8 +251,9 @@ std::optional<Complaint> Verification::distance_moved(const Frame<3>& frame) con
   return Complaint{
       "time",
       fmt::format("most grains have moved {:.3g} times as far as their velocities allow since the "
-                  "moment before, which seems to be one step earlier: are {} and {} the numbers of "
-                  "outputs? Then give the time between two with --frame-interval",
+                  "previous frame, which seems to be one step earlier: are {} and {} numbers of "
+                  "frames instead of steps? Then pass the time "
+                  "between two frames with --frame-interval",
                   factor, before_->step, frame.step),
       false};
 }
@@ -273,7 +274,7 @@ auto Verification::defect_of(const Frame<3>& frame, const Sums& sums) const
 {
   const bool has_force = !frame.force.empty();
   double scale = sums.largest;
-  Forces defect(grains_.size(), Vec3::Constant(NAN));  // also of what is absent, now or before
+  Forces defect(grains_.size(), Vec3::Constant(NAN));  // NaN for grains absent now or before
   for (std::size_t g = 0; g < grains_.size(); ++g) {
     if (!is_mobile(grains_, frame, g)) continue;
     const Vec3 weight = grains_.mass[g] * gravity_;
@@ -309,9 +310,10 @@ std::optional<Residual> Verification::residual_with(const Frame<3>& frame, const
   return residual;
 }
 
-/// The mean force over a short time differs from the mean of the two moments by half of their
-/// difference at most. Over more steps a few grains may have collided meanwhile, but not the median
-/// one of the grains in contact.
+/// Computes the residuals if the archive has no forces on grains. The mean force over a short time
+/// differs from the mean of the two frames by at most half of their difference, which is
+/// subtracted. Over several steps a few grains may have collided; then the median grain in contact
+/// is judged.
 void Verification::judge_by_velocities(const Frame<3>& frame, const Sums& sums,
                                        const Forces& defect, double scale, Residual& residual) const
 {
@@ -351,22 +353,22 @@ std::optional<Complaint> Verification::balance(const Frame<3>& frame, const Sums
                                         "not explain",
                                         residual_->unexplained)
                           : "",
-          frame.force.empty() ? ", its acceleration being the difference of velocities between two "
-                                "moments that are close together"
+          frame.force.empty() ? ", with its acceleration from the difference of velocities between "
+                                "two frames close together"
                               : "",
           cause.sentence),
       true, cause.acts_as_weight};
 }
 
-/// Another meaning of the rows with which the grains balance, if there is one.
+/// Text about another meaning of the rows with which grains balance; "" if there is none.
 std::string Verification::other_readings(const Frame<3>& frame) const
 {
   const std::pair<const char*, Reading> readings[] = {
-      {"with the opposite sign, the force being that on j: exchange i and j",
+      {"with the opposite sign: the force seems to be that on j; exchange i and j",
        [](const Vec3& f, const Vec3&) { return Vec3(-f); }},
       {"with half of every force: is each contact in two rows?",
        [](const Vec3& f, const Vec3&) { return Vec3(f / 2); }},
-      {"with the normal part alone",
+      {"with only the normal part of the forces",
        [](const Vec3& f, const Vec3& n) { return Vec3(f.dot(n) * n); }},
       {"with the tangential part reversed",
        [](const Vec3& f, const Vec3& n) { return Vec3(2 * f.dot(n) * n - f); }},

@@ -18,55 +18,57 @@
 
 namespace grseg {
 
-/// How well the mobile grains of a frame obey sum of contact forces + m g - force = 0: |defect|
-/// over the largest of the frame's contact forces and of the mobile grains' weights.
+/// Residuals of Newton's law for the mobile grains of a frame. The defect of a grain is the sum of
+/// its contact forces + m g - force; its residual is |defect| over the largest of the frame's
+/// contact forces and weights.
 struct Residual {
   double largest = 0, median = 0;
-  std::size_t grain = 0;            // row of the largest
-  double unexplained = 0;           // the largest after late damping is subtracted
-  double worst = 0;                 // the largest, where `unexplained` belongs to the median grain
-  std::optional<LateDamping> late;  // where that was looked for
+  std::size_t grain = 0;   // row of the grain with the largest residual
+  double unexplained = 0;  // residual to judge: the largest, after subtraction of `late`;
+                           // of the median grain between frames close together
+  double worst = 0;        // residual of the worst grain, also if `unexplained` is a median
+  std::optional<LateDamping> late;  // late damping (imbalance.hpp), if forces are late
 };
 
-/// An error of a frame, as a sentence about the reading of its archive.
+/// An error in a frame that a check has found.
 struct Complaint {
-  std::string check;  // check_context.hpp
+  std::string check;  // name of the check: check_context.hpp
   std::string sentence;
-  bool of_columns = false;      // another --columns might help
-  bool spoils_gravity = false;  // what the grains tell of gravity and masses is wrong by it
+  bool of_columns = false;      // true: another value of --columns might help
+  bool spoils_gravity = false;  // true: the error falsifies estimates of gravity and masses
 };
 
-/// Largest imbalance that the correct output of a program may have.
+/// Accuracy of the correct output of a program.
 struct OutputAccuracy {
-  double tolerance = 0;      // largest residual not explained by late damping
-  bool late_forces = false;  // imbalance.hpp
-  double step = 0;           // of the integration; then needed
-  double inertia = 0.5;      // I/(m r^2) of the grains, likewise
-  bool lists_all = true;     // every pair that overlaps has a row, also one that bears no force
+  double tolerance = 0;      // largest residual that late damping does not explain
+  bool late_forces = false;  // true: forces are half a step late (imbalance.hpp)
+  double step = 0;           // length of an integration step
+  double inertia = 0.5;      // I/(m r^2) of the grains, needed for late forces
+  bool lists_all = true;     // true: every overlapping pair has a row, also without a force
 };
 
-/// Checks in each frame of an import what must be true if the archive has been read as it was
-/// meant: contacts join grains that touch, each is listed once, none is missing, they push rather
-/// than pull, and add up to the force on each grain. Where the archive has no forces on grains, m times the difference
-/// of velocities from the frame before is used, with the mean contact forces of the two frames: of
-/// every grain where the two follow step by step, of the median grain where they are close together
-/// (judge.hpp), and not at all otherwise. What can only be told from many frames goes into `moment`.
+/// Checks each frame of an import for errors in reading the archive: contacts must join grains that
+/// touch, each be listed once, none be missing, push rather than pull, and add up to the force on
+/// each grain. If the archive has no forces on grains, the force is m times the change of velocity
+/// since the previous frame, and is compared with the mean contact forces of the two frames: for
+/// every grain if they are consecutive steps, for the median grain if they are close together
+/// (judge.hpp), otherwise not at all. moment() returns the numbers for checks over many frames.
 class Verification {
  public:
-  /// In any consistent units. `axes` are for sentences.
+  /// All arguments in any consistent units. `axes` are used in messages only.
   Verification(const Grains& grains, const Box& box, const Vec3& gravity,
                const OutputAccuracy& accuracy, const Waivers& waivers = {},
                const std::array<AxisInArchive, 3>& axes = {});
 
-  /// See MomentStatistics.
+  /// See MomentStatistics::leave_out().
   void leave_out(const std::vector<std::uint8_t>& grains) { statistics_.leave_out(grains); }
-  /// To be called for the frames in order; what is wrong with this one, if anything that is not
-  /// waived. `has_images`: images of positions are the archive's.
+  /// Checks a frame; to be called for all frames in order. Returns the first error that is not
+  /// waived, if any. `has_images`: the archive states images.
   std::optional<Complaint> check(const Frame<3>& frame, bool has_images = true);
 
-  /// Balance of the last frame; empty where there is nothing to compare with.
+  /// Residuals of the last frame; empty if no force or acceleration of the grains is known.
   const std::optional<Residual>& residual() const { return residual_; }
-  /// The checks' memory of the last frame, in the units of the grains.
+  /// Numbers of the last frame for checks over many frames, in the units of the grains.
   const CheckMoment& moment() const { return moment_; }
 
  private:
@@ -78,23 +80,25 @@ class Verification {
   std::string missing_rows_of(const UnlistedPairs& found) const;
   std::optional<Complaint> pull(const Frame<3>& frame);
 
-  /// The force that a row means, given the unit vector along its branch.
+  /// A possible meaning of the rows: the contact force from the numbers of a row and the unit
+  /// vector along its branch.
   using Reading = std::function<Vec3(const Vec3& force, const Vec3& n)>;
-  /// The contact forces on each grain by a reading, in this frame and, where there is one, in that
-  /// before; and the largest force of a contact.
+  /// Sums of the contact forces on each grain for a Reading, in this frame and the previous one (if
+  /// any), and the largest force of a contact.
   struct Sums {
     Forces now, before;
     double largest = 0;
   };
   Sums sums_as(const Frame<3>& frame, const Reading& reading) const;
 
-  /// How the frame and the one before can be compared.
+  /// Distance in time from the previous frame: no previous frame; not comparable; close together
+  /// (judge.hpp); one step.
   enum class Distance { none, far, close, step };
   double longest_path(const Frame<3>& frame) const;
   double too_far(const Frame<3>& frame) const;
   std::optional<Complaint> distance_moved(const Frame<3>& frame) const;
   Distance from_before(const Frame<3>& frame, const Sums& sums) const;
-  /// The force that is missing on each mobile grain, and the largest force.
+  /// The defect of each mobile grain, and the largest force.
   std::pair<Forces, double> defect_of(const Frame<3>& frame, const Sums& sums) const;
   std::optional<Residual> residual_with(const Frame<3>& frame, const Sums& sums) const;
   void judge_by_velocities(const Frame<3>& frame, const Sums& sums, const Forces& defect,

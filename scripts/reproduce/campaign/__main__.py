@@ -1,8 +1,9 @@
-"""The campaign of scripts/reproduce: its runs, and all that is made of their tables.
+"""Commands for the campaign of scripts/reproduce: its runs, and everything that is made from their tables.
 
     python3 scripts/reproduce/campaign COMMAND ...
 
-Each command says with --help what it makes; Makefile, run.mk and document.mk call most of them.
+COMMAND --help describes a command. Makefile, run.mk and document.mk call most commands. In all of them "the paper" is Staron
+& Phillips (2015), and the words of run names are those of scripts/reproduce/README.md.
 """
 import argparse
 import importlib
@@ -14,13 +15,13 @@ OPTIONS = {
     "tables": {"metavar": "TABLES", "help": "folder of finished runs"},
     "-o": {"dest": "output", "required": True, "metavar": "FILE"},
     "--bin": {"metavar": "FOLDER", "default": os.path.join(os.path.dirname(__file__), *[".."] * 3, "build", "bin"),
-              "help": "of the programs (build/bin)"},
-    "--bootstrap": {"default": "1000", "metavar": "N", "help": "samples (1000)"},
+              "help": "folder of the programs (build/bin)"},
+    "--bootstrap": {"default": "1000", "metavar": "N", "help": "number of bootstrap samples (1000)"},
     "--partition": {"metavar": "RULES"},
-    "--flows": {"metavar": "LIST", "help": "instead of those named above"},
-    "--heights": {"metavar": "LOW:HIGH", "help": "layers that count"},
-    "--begin": {"default": "10", "metavar": "T", "help": "from this time on, s (10)"},
-    "--end": {"metavar": "T", "help": "until this time, s"},
+    "--flows": {"metavar": "LIST", "help": "flows to use instead of the default, separated by commas"},
+    "--heights": {"metavar": "LOW:HIGH", "help": "heights of the layers that are used"},
+    "--begin": {"default": "10", "metavar": "T", "help": "use windows from this time on, s (10)"},
+    "--end": {"metavar": "T", "help": "use windows up to this time, s"},
 }
 MADE = ["tables", "-o", "--bin"]
 FITTED = [*MADE, "--bootstrap"]
@@ -39,7 +40,7 @@ COMMANDS = {
     "denser": ("closures", [*FLUX, "--flow"], {"--flow": {"default": "phi0.45-s23-mixed"}, "--heights": {"default": "4dS:56dS"}}),
     "stages": ("stages", ["tables", "-o", "--flows", "--window"],
                {"--flows": {"default": "phi0.45-s23-t600,phi0.45-s23-mixed-t600,phi0.45-s23-above-t600"},
-                "--window": {"type": float, "default": 10, "metavar": "S", "help": "of a point (10)"}}),
+                "--window": {"type": float, "default": 10, "metavar": "S", "help": "duration of a point (10)"}}),
     "answers": ("answers", ["folder", "documents"], {"documents": {"nargs": "+"}}),
     "combinations": ("combinations", ["source", "-o", "--figure"],
                      {"source": {"metavar": "FOLDER|combinations.tsv"}, "-o": {"required": False}, "--figure": {"metavar": "FILE"}}),

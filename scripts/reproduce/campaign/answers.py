@@ -1,4 +1,4 @@
-"""Tables of the documents on what the paper leaves open."""
+"""Tables of the documents on questions that the paper leaves open."""
 import os
 import re
 
@@ -18,7 +18,7 @@ def interval(row, name, digits):
 
 
 def about(row, name, digits):
-    """A value with the half-width of its interval in column NAME_reach."""
+    """Text of a value with its interval, whose half-width is in column NAME_reach."""
     value, reach = row[name], row[name + "_reach"]
     return Value(value, value - reach, value + reach).text(digits)
 
@@ -28,20 +28,21 @@ def of_flows(rows, pattern):
 
 
 def strengths(rows, pattern):
-    """B, p* and B_kappa of these flows, and how B differs from that of the paper's choice over the same time."""
+    """Table of B, p* and B_kappa of flows, and of B minus B of the paper's choice over the same time."""
     return markdown(["flow", "B", "difference", "p*", "B_κ"], [[row["flow"], interval(row, "B", 3), about(row, "less_B", 3), interval(row, "p_star", 4),
                                                                  interval(row, "K", 3)] for row in of_flows(rows, pattern)])
 
 
 def beds_of_densities(rows):
-    """B and p* by the ratio of the densities of large and small grains."""
+    """Table of B and p* by the ratio of the densities of large and small grains."""
     found = [(float(re.search("density([0-9.]+)", row["flow"])[1]), row) for row in of_flows(rows, r".*-density[0-9.]+-t60")]
     return markdown(["ρ_L/ρ_S", "B", "p*"], [[f"{ratio:g}", interval(row, "B", 3), interval(row, "p_star", 4)]
                                                            for ratio, row in sorted(found, key=lambda one: one[0])])
 
 
 def fluctuations(rows, pattern):
-    """B_kappa about the profile and about the mean of layer and frame, with the velocity after the step and in its middle."""
+    """Table of B_kappa for fluctuations about the profile and about the mean of layer and frame, with velocities after the step
+    and in its middle."""
     names = ("K_sums", "K", "K_middle", "K_instant", "K_unbiased")
     heads = ["flow", "runs", "B", "B_κ by sums", "B_κ about the profile", "... middle of the step", "about layer and frame", "... unbiased"]
     return markdown(heads, [[row["flow"], f"{row['runs']:.0f}", interval(row, "B", 3)] + [interval(row, name, 3) for name in names]
@@ -49,7 +50,7 @@ def fluctuations(rows, pattern):
 
 
 def with_and_without_a_row(row):
-    """True if the base traps a row of large grains in some runs and not in others: they make no interval."""
+    """True if the base traps a row of large grains in some runs only; then an interval over runs has no meaning."""
     return row["trapped"] > 5 and row["trapped_reach"] > row["trapped"] / 2
 
 
@@ -77,7 +78,7 @@ def limits(rows):
 
 
 def by_start(rows):
-    """B by time, a column for each start."""
+    """Table of B by time, with a column for each start."""
     starts = list(dict.fromkeys(row["of"].split()[0] for row in rows))
     times = list(dict.fromkeys(row["of"].split(" ", 1)[1] for row in rows))
     at = {tuple(row["of"].split(" ", 1)): row for row in rows}
@@ -135,10 +136,10 @@ def parts_of(folder):
 
 
 def answers(options):
-    """Rewrites the tables of documents from what scripts/reproduce/questions, stages, rigid-limit, closures and denser found.
+    """Rewrites tables of documents from the results of the commands questions, stages, rigid-limit, closures and denser.
 
-    FOLDER holds questions.tsv and, if there are runs for them, stages.tsv, rigid-limit.tsv, closures.tsv and denser.tsv. A table stands in one of
-    the documents, between <!-- NAME --> and <!-- /NAME -->; one for which no run has finished may be left out.
+    FOLDER contains questions.tsv and, if there are runs for them, stages.tsv, rigid-limit.tsv, closures.tsv and denser.tsv. Each
+    table is in one of the documents, between <!-- NAME --> and <!-- /NAME -->; a table without finished runs may be missing.
     """
     parts = parts_of(options.folder)
     shared.rewrite("answers", options.documents, parts, optional=[name for name, part in parts.items() if part == NONE])

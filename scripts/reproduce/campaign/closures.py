@@ -1,4 +1,4 @@
-"""Gray & Thornton's c and d: from fluxes, and c from the density of large grains."""
+"""The coefficients c and d of Gray & Thornton's closure: from fluxes, and c from large grains of another density."""
 import math
 import re
 import sys
@@ -10,7 +10,7 @@ NAMES = {"B_over_c": "B_over_c[s]", "d_over_c": "d_over_c[m^2/s]", "p_star": "p_
 
 
 def closure(options, runs):
-    """Value and interval of every number in NAMES."""
+    """Value and interval of every number in NAMES, from grseg-closure."""
     paths = [run.path(table) for run in runs for table in ("segregation", "stress")]
     _, rows = tables.program(options, "grseg-closure", *paths, "--heights", options.heights, "--begin", options.begin,
                              *(["--end", options.end] if options.end else []), "--partition", "size,half", "--bootstrap", options.bootstrap, "--quiet")
@@ -20,11 +20,12 @@ def closure(options, runs):
 
 
 def closures(options):
-    """Gray & Thornton's c and d of each mixture, from the flux of its large grains, and what each rule makes of c.
+    """Writes c and d of Gray & Thornton's closure for each mixture, from the flux of large grains, with c under two rules.
 
-    A row per flow (by default all mixtures at 23 degrees with e = 0.25, of which make questions keeps the flux of every layer), by
-    grseg-closure over layers from 12 to 56 d_S (the gradient of lower ones reaches over the trapped row), from 10 s on, when the flow is developed, and all seeds together, with 95 % intervals:
-        B_over_c [s], d_over_c [m^2/s]   of the flux, whatever the rule
+    There is a row per flow; the default is all mixtures at 23 degrees with e = 0.25, for which `make questions` stores the flux
+    by layer. grseg-closure uses layers from 12 to 56 d_S, because the gradient in lower layers includes the trapped row of large
+    grains; times from 10 s on, when the flow is developed; and all seeds together. Intervals are 95 %.
+        B_over_c [s], d_over_c [m^2/s]   coefficients of the flux, the same for every rule
         p_star, dc_dp [1/s]              c(p) = dc_dp (p - p_star)
         c_size, c_half [1/s]             c under two rules
     """
@@ -34,7 +35,7 @@ def closures(options):
 
 
 def points_of(options):
-    """D, the factor of X, p_zero and dc/dp of every run."""
+    """For every run: D, the factor of X, p_zero and dc/dp; see denser()."""
     for run in tables.runs_in(options.tables):
         if found := re.fullmatch(re.escape(options.flow) + r"-density([\d.]+)-t\d+", run.flow):
             excess, of_run = float(found[1]) - 1, closure(options, [run])
@@ -46,20 +47,20 @@ def row(of, runs, value, half):
 
 
 class Line:
-    """Least squares through the points over D, with the scatter of runs about it."""
+    """The least-squares line through the points over D, and the scatter of runs about it."""
 
     def __init__(self, points):
         self.level, self.slope, self.covariance, left = tables.line(*([point[name] for point in points] for name in ("D", "value")))
         self.student, self.deviation = tables.student(len(points) - 2), math.sqrt(left / (len(points) - 2))
 
     def reach(self, a, b):
-        """Half the interval of a level + b slope."""
+        """Half the width of the interval of a * level + b * slope."""
         v00, v01, v11 = self.covariance
         return self.student * self.deviation * math.sqrt(a * a * v00 + 2 * a * b * v01 + b * b * v11)
 
 
 def ratios(points):
-    """A row of each density ratio."""
+    """Yields a row for each density ratio."""
     line = Line(points)
     for excess in sorted({point["D"] for point in points}):
         alike = [point["value"] for point in points if point["D"] == excess]
@@ -81,24 +82,26 @@ def conclusions(points):
 
 
 def denser(options):
-    """Gray & Thornton's c itself, from large grains that are denser or lighter than the small ones.
+    """Writes c of Gray & Thornton's closure, measured with large grains that are denser or lighter than the small ones.
 
-    In a flow without other forces motion gives B/c and d/c alone. A weight that only the large grains have enters their balance
-    beside B. With f^L = phi_L (1 + B phi_S), a density rho_L = (1 + D) rho_S and a drag per volume of large grains, rho_S c (w_L - w_S) phi_S,
-    that does not depend on their density, the balance of the large grains less phi_L times the balance of the mixture is
+    In a flow without other forces the motion determines only B/c and d/c. An additional weight of the large grains enters their
+    balance besides B. With f^L = phi_L (1 + B phi_S), a density rho_L = (1 + D) rho_S, and a drag per volume of large grains,
+    rho_S c (w_L - w_S) phi_S, that does not depend on their density, the balance of the large grains minus phi_L times the
+    balance of the mixture is
 
         c q = (B (1 + phi_L D) - D) X - d G,    q = phi_L phi_S (w_L - w_S),  X = phi_L phi_S g cos(slope),  G = dphi_L/dy.
 
-    The factor of X in the flux is a line over D. Its level is a = B/c and its slope s = -(1 - B phi_L)/c, so that c = 1/(phi_L a - s) and
-    B = a c; no rule enters. grseg-segregation gives the
-    flux relative to the mean weighted with mass, which is q/(1 + phi_L D); the mean Phi_L stands for phi_L.
+    The factor of X in the flux is a line over D. Its level is a = B/c and its slope s = -(1 - B phi_L)/c, so that c = 1/(phi_L a
+    - s) and B = a c. No partition rule is needed. The flux of grseg-segregation is relative to the mean velocity weighted with
+    mass, and equals q/(1 + phi_L D); the mean Phi_L is used in place of phi_L.
 
-    Rows: one per density ratio (flows FLOW-densityR-t60), factor = (1 + Phi_L D) x B_over_c of grseg-closure, as in
-    `closures`, run by run, and its mean. Then the least-squares line through
-    all runs over D. Intervals are 95 %, by Student's t with the scatter of all runs about that line: slope, at_zero (B/c), c [1/s], B,
-    stops, the density ratio 1 - a/s at which segregation stops, and share, the p by which contacts give that B: p_zero + c/dc_dp of the runs with D = 0.
+    Rows: one per density ratio (flows FLOW-densityR-t60), the mean over runs of the factor (1 + Phi_L D) x B_over_c, with
+    B_over_c as in `closures`, run by run. Then follow numbers of the least-squares line through all runs over D: slope, at_zero
+    (B/c), c [1/s], B, stops (density ratio 1 - a/s at which segregation stops), and share (the p at which contacts give this c:
+    p_zero + c/dc_dp of the runs with D = 0). Intervals are 95 %, by Student's t with the scatter of all runs about the line.
     """
     points = list(points_of(options))
     if len({point["D"] for point in points}) < 3 or all(point["D"] != 0 for point in points):
-        sys.exit(f"denser: {options.tables}: {len(points)} runs of {options.flow} have finished; three density ratios are needed, one of them 1")
+        sys.exit(f"denser: {options.tables}: {len(points)} runs of {options.flow} have finished; at least three density ratios are needed, "
+                 "one of them 1")
     tables.write(options.output, "denser", ["of", "runs", "value", "value_low", "value_high"], [*ratios(points), *conclusions(points)])

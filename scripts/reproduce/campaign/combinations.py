@@ -1,4 +1,4 @@
-"""Every number that the paper prints, under every combination of what it does not state."""
+"""Every number that the paper prints, under every combination of choices that it does not state."""
 import collections
 import functools
 import itertools
@@ -12,7 +12,7 @@ from combined import AXES, TARGETS, pull, read, report, write_figure
 import tables
 import grseg
 
-LAYER, GRAVITY, DIAMETER = 4, 9.8, 0.005  # d_S; m/s^2; m
+LAYER, GRAVITY, DIAMETER = 4, 9.8, 0.005  # thickness of layers, d_S; gravity, m/s^2; d_S, m
 LAYERS = {"4-56": range(1, 14), "0-56": range(14), "4-top": range(1, 40), "all": range(40)}
 FRAMES = {"25": "stride1", "5": "stride5", "3": "stride8", "2": "stride12"}
 FORMS = ("logarithms", "weighted", "least squares")
@@ -33,12 +33,12 @@ class Table:
         return self.columns[name]
 
     def content(self):
-        """Areas or masses of the two species, m^2 or kg: the density is 1."""
+        """Areas (m^2) or masses (kg) of the two species; both are the same numbers, since the density is 1 kg/m^2."""
         kind = "area" if "area_S" in self.columns else "mass"
         return self[f"{kind}_S"], self[f"{kind}_L"]
 
     def solid(self):
-        """Rows of layers that are not nearly empty, as in grseg-fit."""
+        """True for rows of layers with at least half the median solid fraction, as in grseg-fit."""
         fraction = sum(self.content()) / self["V"]
         return fraction >= 0.5 * np.median(fraction)
 
@@ -50,7 +50,7 @@ def tensor(table, name, component):
 
 
 def stresses(table, rule, component):
-    """Stresses of the small and of the large grains; rule: the large grain's share, or "size"; None: kinetic."""
+    """Stresses of the small and of the large grains, times the volume. rule: the large grain's share or "size"; None: kinetic."""
     part = lambda name: tensor(table, name, component)
     if rule is None:
         return part("K_S"), part("K_L")
@@ -59,7 +59,7 @@ def stresses(table, rule, component):
 
 
 def points(of_runs, layers, rule=None, component="yy"):
-    """x, y and weights of all windows and layers of all runs."""
+    """x = phi_S/phi_L, y = sigma^S/sigma^L and weights of all windows and layers of all runs."""
     x, y, weights = [], [], []
     for table in of_runs:
         small, large = table.content()
@@ -74,14 +74,14 @@ def points(of_runs, layers, rule=None, component="yy"):
 
 
 def proportional(x, y, weights, form):
-    """s of y = s x."""
+    """The slope s of y = s x."""
     if form == "least squares":
         return x @ y / (x @ x)
     return math.exp(np.average(np.log(y / x), weights=weights if form == "weighted" else None))
 
 
 def best_scale(shape, y, low, high):
-    """a and b, between low and high, of the least squares y = a shape(b): a follows from b, and b is found by golden sections."""
+    """Least-squares fit of y = a shape(b); returns a and b. a follows from b, and b is found between low and high by golden sections."""
     def scale(b):
         return shape(b) @ y / (shape(b) @ shape(b))
 
@@ -124,7 +124,7 @@ def kinetic_profile(table, layers, form, volume, period):
     space = table["V"] if volume == "with voids" else sum(table.content())
     for n in sorted(set(table.layer[counts])):
         rows = counts & (table.layer == n)
-        heights.append((n + 0.5) * LAYER / 2)  # d_L
+        heights.append((n + 0.5) * LAYER / 2)  # height in d_L
         pressure.append(energy[rows].sum() / space[rows].sum() / (GRAVITY * DIAMETER))
     z, p = np.array(heights), np.array(pressure)
     if form == "least squares":
@@ -136,13 +136,13 @@ def kinetic_profile(table, layers, form, volume, period):
 
 
 def shear_rate(table):
-    """Over sqrt(g/d_S), mean between 4 and 56 d_S from 10 s on."""
+    """Mean shear rate between 4 and 56 d_S from 10 s on, in units of sqrt(g/d_S)."""
     counts = np.isin(table.layer, list(LAYERS["4-56"])) & (table["t0"] >= 10)
     return np.nanmean(table["du_dy"][counts]) / math.sqrt(GRAVITY / DIAMETER)
 
 
 def over_shear_rate(of_slopes, layers, form):
-    """Level and slope of -B_kappa over the shear rate, half the sum of its end values, and their standard errors."""
+    """Level and slope of the line of -B_kappa over the shear rate, with standard errors; B_kappa is half the sum of its end values."""
     x, y = [], []
     for table in of_slopes:
         s = proportional(*points([table], layers), form)
@@ -165,7 +165,7 @@ class Runs:
         return [table_in(run.path(name)) for run in self.runs if chosen(run)]
 
     def seeds(self, variant):
-        """Seeds for which all mixtures have run."""
+        """Seeds for which all mixtures have finished."""
         found = collections.Counter(run.seed for run in self.runs if run.variant == variant and run.slope == 23)
         return sorted(seed for seed, mixtures in found.items() if mixtures == max(found.values()))
 
@@ -180,7 +180,8 @@ class Runs:
 
 
 def summary(of_seeds, scatter):
-    """Mean and standard error of one set of runs, for each name; scatter: deviations of seeds by name where there are some."""
+    """(Mean over seeds, standard error of one set of runs) for each name. If there are several seeds, stores their standard
+    deviations in `scatter`; otherwise uses those in `scatter`."""
     found = {}
     for name in of_seeds[0]:
         values = [numbers[name] for numbers in of_seeds]
@@ -192,7 +193,7 @@ def summary(of_seeds, scatter):
 
 
 def every_combination(runs):
-    """(axes, numbers) of every combination: value and standard error by target."""
+    """Yields (choices by axis, {target: (value, standard error)}) for every combination."""
     for layers, frames, form in itertools.product(LAYERS, FRAMES, FORMS):
         stride, heights, scatter = FRAMES[frames], LAYERS[layers], {}
         contact = {}
@@ -212,7 +213,7 @@ def every_combination(runs):
 
 
 def best_profile(runs, name, variant, layers, form, scatter):
-    """Figure 3a with the volume and the period that come nearest to it."""
+    """Numbers of figure 3a, for the volume and the period that come nearest to the paper's numbers."""
     found = []
     for volume, (period, span) in itertools.product(VOLUMES, PERIODS.items()):
         of_seeds = [kinetic_profile(runs.shown(name, variant, seed), layers, form, volume, span) for seed in runs.seeds(variant)]
@@ -230,25 +231,28 @@ def rows(folder):
 
 
 def combinations(options):
-    """The paper's printed numbers under every combination of the choices that it does not state.
+    """Computes the paper's printed numbers under every combination of the choices that it does not state.
 
-    The paper states layers of 4 d_S, windows of 1.25 s, all stages of all six mixtures, 0.01 < phi_S/phi_L < 100 and the component yy. Open are
-        layers        which heights take part (d_S)
-        frames        of a window
-        form          of the fit of y over x: means of logarithms, the same weighted by frames times grains of the rarer species, or
+    The paper states layers of 4 d_S, windows of 1.25 s, all stages of all six mixtures, 0.01 < phi_S/phi_L < 100, and the
+    component yy. Choices that it does not state ("axes"):
+        layers        heights of the layers that are used (d_S)
+        frames        number of frames in a window
+        form          fit of y over x: means of logarithms; the same, weighted by frames times grains of the rarer species; or
                       least squares of y itself
-        mean          velocity from which fluctuations count: of the layer or of a fine profile over the window, or of layer and frame
+        mean          mean velocity about which fluctuations are taken: of the layer or of a fine profile, both over the window;
+                      or of layer and frame
         velocity      after the time step of a frame, or in its middle
         restitution   0.25 as a coefficient of velocities, or of energy, which makes 0.5
-        for the profile of figure 3a alone: volume (with voids, or of grains) and period ("steady state", s)
-    A target is met if it differs from the paper's number by at most 1.96 standard errors. They are made of the paper's error (statements.py; if none
-    is printed, the error of rounding) and of the error of one set of runs like the paper's: sqrt(1 + 1/n) times the deviation of n seeds, taken from
-    restitution 0.25. It is not met if 1.96 of the latter are more than the room that the paper leaves (statements.py): such a combination says
-    nothing about it.
+        for the profile of figure 3a only: volume (with voids, or of grains) and period ("steady state", s)
+    A target is met if our number differs from the paper's by at most 1.96 standard errors. They combine the paper's error
+    (statements.py; the error of rounding if none is printed) and the error of one set of runs like the paper's: sqrt(1 + 1/n)
+    times the standard deviation over n seeds, taken from restitution 0.25. A target is not met if 1.96 of the latter exceed the
+    paper's tolerance (statements.py), since such a combination is no test of this target.
+    SOURCE is the folder of runs of `make combinations`, whose numbers are written to FILE; or the table FILE, which is reported.
     """
     if os.path.isdir(options.source):
         if not options.output:
-            sys.exit("combinations: -o FILE is needed")
+            sys.exit("combinations: name the table to write: -o FILE")
         found = list(rows(options.source))
         tables.write(options.output, "combinations", list(found[0]), found)
         return

@@ -1,6 +1,6 @@
-"""Finds in the rows of `combinations` the choices that make the paper's numbers.
+"""Finds, in the table of `combinations`, the choices that give the paper's numbers.
 
-A row has the choices by axis, and the number and standard error of every target.
+A row has one choice for each axis, and the value and standard error of every target. A target is a number that the paper prints.
 """
 import itertools
 import math
@@ -10,18 +10,19 @@ import tables
 from tables import shared
 
 SIGMAS = 1.96
-# Means from which an author may have taken fluctuations; `others` is the profile without its bias.
+# Mean velocities about which the paper's authors may have taken fluctuations. `others`, the profile without its bias, is not
+# among them.
 TRIED = ("profile", "layer", "instant")
 
 
 def target(statement, value=None, error=None, room=None):
-    """The paper's number, its standard error, and the room that it leaves by statements.py."""
+    """The paper's number, its standard error, and its tolerance: half the range in statements.py."""
     return (statement.value if value is None else value, statement.error if error is None else error,
             (statement.high - statement.low) / 2 if room is None else room)
 
 
-# No error of the exponent is printed: it has the relative error of the prefactor. The pressure's slope has the room of its B, as dB/ds is -1.
-# The slope of figure 4 has the room of its line, 0.04, over half of the range of x, 0.2.
+# The paper prints no error of the exponent; the relative error of the prefactor is used. The slope of the pressure has the
+# tolerance of its B, since dB/ds is -1. The slope of figure 4 has the tolerance of its line, 0.04, over half the range of x, 0.2.
 TARGETS = {
     "slope": target(paper.SLOPE), "pressure": target(paper.B_PRESSURE, 0.955),
     **{f"B {rule}": target(paper.RULES[name], error=math.hypot(paper.FIT_ERROR, paper.RULES[name].error))
@@ -31,22 +32,23 @@ TARGETS = {
     "4 level": target(paper.figure_4(0)), "4 slope": target(paper.figure_4(0), 0.205, room=0.2),
 }
 AXES = ("layers", "frames", "form", "mean", "velocity", "restitution")
-# Ours: of reproduction.md, with the mean that has no bias.
+# Choices of docs/studies/reproduction.md, with the mean velocity that has no bias.
 OURS = ("4-56", "25", "weighted", "others", "after", "0.25")
 
 
 def both(name, error):
-    """The standard error of the difference from the paper."""
+    """The standard error of the difference between our number and the paper's."""
     return math.hypot(error, TARGETS[name][1])
 
 
 def pull(name, value, error):
-    """The difference from the paper in standard errors."""
+    """The difference from the paper's number, in standard errors."""
     return (value - TARGETS[name][0]) / both(name, error)
 
 
 def meets(row, name):
-    """Within both errors, where ours is smaller than the room that the paper leaves: what is known worse meets nothing."""
+    """True if the row agrees with the target within both errors, and 1.96 of our errors are within the paper's tolerance; a
+    less certain number meets no target."""
     error = row[f"{name} error"]
     return abs(pull(name, row[name], error)) <= SIGMAS and SIGMAS * error <= TARGETS[name][2]
 
@@ -56,13 +58,14 @@ def text_of(row):
 
 
 def read(path):
-    """The rows of a table; choices are words."""
+    """Rows of the table of `combinations`, judged(); choices are text."""
     return [judged({name: f"{value:g}" if name in AXES and isinstance(value, float) else value for name, value in row.items()})
             for row in tables.read(path)[1]]
 
 
 def judged(row):
-    """With the count of the targets that it meets, and the logarithm of the likelihood of normal errors but for a constant: a wide error is less likely."""
+    """The row with two more entries: number of targets that it meets, and logarithm of the likelihood for normal errors, up to
+    a constant. The likelihood decreases with the width of the errors."""
     error = {name: row[f"{name} error"] for name in TARGETS}
     row["met"] = sum(meets(row, name) for name in TARGETS)
     row["log_likelihood"] = -sum(pull(name, row[name], error[name]) ** 2 / 2 + math.log(both(name, error[name]) / TARGETS[name][1]) for name in TARGETS)
@@ -74,17 +77,17 @@ def an_author_may_have_tried(found):
 
 
 def meeting_most(found):
-    """The most likely of the rows that meet most targets."""
+    """The row with the highest likelihood among those that meet most targets."""
     return max(an_author_may_have_tried(found), key=lambda row: (row["met"], row["log_likelihood"]))
 
 
 def without_the_lowest_layer(found):
-    """Rows without the lowest layer, which has a trapped row of large grains in some runs and not in others: it makes errors wide."""
+    """Rows of fits without the lowest layer. This layer has a trapped row of large grains in some runs only, which makes errors wide."""
     return [row for row in found if row["layers"].startswith("4-")]
 
 
 def report(found):
-    """A sentence for each result of the rows."""
+    """Yields the paragraphs of the report on these rows."""
     tried, best = an_author_may_have_tried(found), meeting_most(found)
     above = meeting_most(without_the_lowest_layer(found))
     ours = next(row for row in found if tuple(row[axis] for axis in AXES) == OURS)
@@ -107,7 +110,7 @@ def report(found):
 
 
 def excluded(rows):
-    """Pairs of targets that rows meet, but never both."""
+    """Words on targets that no row meets, and on pairs of targets that rows meet, but never both at once."""
     met = {target: {k for k, row in enumerate(rows) if meets(row, target)} for target in TARGETS}
     pairs = [f"{a} and {b}" for a, b in itertools.combinations(TARGETS, 2) if met[a] and met[b] and not met[a] & met[b]]
     never = [f"{target} at all" for target in TARGETS if not met[target]]
@@ -115,7 +118,7 @@ def excluded(rows):
 
 
 def write_figure(found, path):
-    """For each choice and target the part of the combinations with that choice that meet it."""
+    """Writes, for each choice and target, the share of the combinations with this choice that meet the target."""
     tried = an_author_may_have_tried(found)
     out = []
     for axis in AXES:

@@ -1,4 +1,4 @@
-"""The generated parts of docs/studies/reproduction.md and of its annex."""
+"""Generated parts of docs/studies/reproduction.md and of its annex."""
 import math
 import os
 
@@ -45,7 +45,7 @@ def counts(m):
 
 
 def pictures(m):
-    """The figures that could be drawn from the flows there are."""
+    """Table of the figures that could be drawn from the finished flows."""
     drawn = [f"![{name}](figures/reproduction/{name}.png)<br>{caption}" for name, caption in CAPTIONS.items()
              if os.path.exists(os.path.join(m.folder, name + ".png"))]
     return markdown(["", ""], [drawn[k:k + 2] for k in range(0, len(drawn), 2)])
@@ -98,7 +98,7 @@ def by_flow(m):
 
 
 def pooled(m):
-    """One B for all mixtures: what each such number is a number of."""
+    """B of all mixtures together over each population, and the weights of the mixtures."""
     flows, row = m.mixtures(), m.row("mixtures")
     if not flows or not row:
         return "Not measured yet."
@@ -110,7 +110,7 @@ def pooled(m):
 
 
 def rise(m):
-    """Factors and terms of B by mixture, and its trend over mixtures."""
+    """Tables of the factors of B by mixture, and of the trend of B over mixtures (rise.py)."""
     flows = m.mixtures()
     of = lambda row, name, digits: m.number(row["flow"], f"rise_{name}").text(digits)
     one = lambda row: m.number("mixtures", f"rise_one_{row['phi']:g}").text(4)
@@ -125,7 +125,7 @@ def rise(m):
 
 
 def source(m):
-    """The part of the campaign that the tables cover."""
+    """Words on the flows, seeds, windows and programs of the tables."""
     paper = [f"phi{phi}-s23" for phi in ("0.06", "0.15", "0.30", "0.45", "0.60", "0.75")]
     paper += [f"phi0.45-s{slope}" for slope in (21, 22, 24, 25, 26)]
     missing = [name for name in paper if m.flow(name) is None]
@@ -152,7 +152,7 @@ ANNEX = {"pictures": pictures, "flows": flows, "pooled": pooled, "rise": rise, "
 def document(options):
     """Rewrites the generated parts of docs/studies/reproduction.md and its annex from the tables that document.mk makes.
 
-    A generated part stands between <!-- NAME --> and <!-- /NAME -->; the rest of a file is left as it is.
+    A generated part is the text between <!-- NAME --> and <!-- /NAME -->; the rest of a file does not change.
     """
     m = Measured(options.work)
     for path, parts in zip(options.documents, (MAIN, ANNEX)):

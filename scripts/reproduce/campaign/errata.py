@@ -1,4 +1,4 @@
-"""Errors and gaps of the paper's text, and the measurements that bear on them."""
+"""Errors and gaps in the text of Staron & Phillips (2015), and measurements about them."""
 import statements as paper
 import verdicts
 
@@ -33,7 +33,7 @@ def rows(m):
 
 
 def volume(m):
-    """Numbers of figures 2a and 3a that each reading of V meets, by the rule of verdicts.py."""
+    """Row on V: the numbers of figures 2a and 3a that agree (verdicts.py) with each interpretation of the volume V."""
     figures = (("the slope of 2a", "P{}_slope", paper.FIGURE_2A), ("the prefactor of 3a", "K{}_prefactor", paper.P_KAPPA),
                ("its decay length", "K{}_decay", paper.P_KAPPA_DECAY))
     met = []

@@ -1,4 +1,4 @@
-"""Parts of a trajectory that are kept beside its sums, and a trajectory with other labels."""
+"""Extracts parts of a trajectory that are stored with its sums, and makes a trajectory with random labels."""
 import shutil
 
 import h5py
@@ -7,7 +7,7 @@ import numpy
 import tables  # noqa: F401 (grseg's folder)
 import grseg
 
-STORED_ELSEWHERE = {"scene", "history", "command_line"}  # in scene.ini and in every table
+STORED_ELSEWHERE = {"scene", "history", "command_line"}  # parameters that scene.ini and every table include
 
 
 def record(run):
@@ -35,11 +35,11 @@ def snapshots(run):
 
 
 def extract(options):
-    """Parts of a trajectory that are kept beside its sums, as a table on standard output.
+    """Prints a part of a trajectory that is stored with its sums, as a table.
 
-    record         names and values of the run's parameters, content digest first
-    observables    the observables of every frame
-    snapshots      the grains of the first and the last frame
+    record         content digest of the run, numbers of frames and grains, names and values of its parameters
+    observables    observables of every frame
+    snapshots      grains of the first and of the last frame
     """
     with grseg.Run(options.run) as run:
         for row in {"record": record, "observables": observables, "snapshots": snapshots}[options.what](run):
@@ -47,9 +47,9 @@ def extract(options):
 
 
 def relabel(options):
-    """A copy of a trajectory in which the species of the mobile grains are permuted at random.
+    """Writes a copy of a trajectory in which the species of the mobile grains are permuted at random.
 
-    For grains of one size B must then be 0; a value outside its interval would be an error of the tool.
+    For grains of one size B of this copy must be 0; if its interval excludes 0, the tool has an error.
     """
     shutil.copyfile(options.run, options.random)
     with h5py.File(options.random, "r+") as run:

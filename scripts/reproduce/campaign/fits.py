@@ -10,7 +10,7 @@ from tables import ENDS, WHERE
 RULES = "size,uniform:0.66667,half,uniform:0.8,uniform:0.6"
 STAGES = {"all": [], "early": ["--end", tables.EARLY], "late": ["--begin", tables.LATE]}
 HEIGHTS = {"inside": ["--heights", "4dS:56dS"], "all": ["--heights", "all"]}
-# Quantity, component, rules, and the pairs of stage and heights that are fitted.
+# Fits: quantity, component, rules, and pairs of stage and heights.
 EVERY = [("early", "inside"), ("late", "inside"), ("all", "all")]
 KINDS = [("contact", "yy", RULES, [("all", "inside")]), ("contact", "yy", "size", EVERY),
          ("contact", "pressure", "size", [("all", "inside")]),
@@ -18,7 +18,7 @@ KINDS = [("contact", "yy", RULES, [("all", "inside")]), ("contact", "yy", "size"
 
 
 def sets_of(runs):
-    """Runs by the name of their set."""
+    """Lists of runs by the name of the set; see fits()."""
     plain = [run for run in runs if not run.variant]
     sets = {"mixtures": [run for run in plain if run.slope == 23],
             "slopes": [run for run in plain if run.phi == 0.45],
@@ -39,7 +39,7 @@ def cases_of(sets, kinds):
 
 
 def fit(options, case, runs, rules):
-    """Rows of grseg-fit, preceded by the columns of the case."""
+    """Rows of grseg-fit for one case, each with the columns of the case before those of grseg-fit."""
     kind = "stress-random" if case["set"] == "control" else \
         "stress" if case["quantity"] == "contact" else "kinetic"
     words = ["--quantity", case["quantity"], "--component", case["component"], "--quiet",
@@ -53,20 +53,20 @@ def fit(options, case, runs, rules):
 
 
 def fits(options):
-    """All fits of the reproduction in one table: grseg-fit applied to the runs of each set.
+    """Writes all fits of the reproduction into one table: grseg-fit applied to the runs of each set.
 
-    TABLES is a folder of sums, NAME/stress.tsv and NAME/kinetic.tsv. With --partition: only B by these rules, over
-    all times. The first columns state what was fitted:
+    TABLES is a folder with sums of runs, NAME/stress.tsv and NAME/kinetic.tsv. With --partition: only B by these rules, over
+    all times. The first columns describe the fit:
         set       mixtures (all runs at 23 degrees), slopes (all runs with phi_L = 0.45), control (equal grains with
                   random labels), or one flow (phi0.30-s23), with its phi and slope
         seeds     number of runs
         stage     all, early (t < EARLY) or late (t > LATE; both in tables.py)
         heights   inside (4dS:56dS: without the lowest layer and the surface) or all
         quantity component
-    A column for each number of grseg-fit follows, with NAME_low and NAME_high. Intervals of a flow are over its runs; intervals
-    of `mixtures` and `slopes` are over compositions, with B over flows, equal flows and random flows in columns
-    B_flows ... (docs/studies/uncertainty.md). All rules are fitted for all times inside; stages
-    and all heights by size only. A set without any usable point has no row.
+    Then follows a column for each number of grseg-fit, with NAME_low and NAME_high. Intervals of a flow are over its runs.
+    Intervals of `mixtures` and `slopes` are over compositions; columns B_flows ... have B over flows, equal flows and random
+    flows (docs/studies/uncertainty.md). All rules are fitted for all times inside; other stages and all heights only by
+    size. A set without any usable point has no row.
     """
     sets = sets_of(tables.runs_in(options.tables))
     kinds = [("contact", "yy", options.partition, [("all", heights) for heights in HEIGHTS])] \
@@ -82,8 +82,8 @@ def fits(options):
 
 FLOWS = ("phi0.45-s23", "phi0.30-s23")
 FIRST = ["--end", 60]
-BASES = ("first 60 s", "all times")  # what the choices behind them are compared with
-# Title; variant, options, tables of contacts and of motion.
+BASES = ("first 60 s", "all times")  # choices with which the choices after them in the list are compared
+# Choices: title, variant of the run, options of grseg-fit, table of contacts, table of kinetic sums (None: not affected).
 CHOICES = [
     ("first 60 s", "", FIRST, "stress", "kinetic"),
     ("restitution 0.5 instead of 0.25", "e0.5", FIRST, "stress", "kinetic"),
@@ -108,7 +108,7 @@ NONE = (math.nan,) * 3
 
 
 def fitted(options, runs, quantity, *words):
-    """B with its interval, for each rule; None if tables are missing or insufficient."""
+    """(B, low, high) for each rule; None if a table is missing, [] if grseg-fit fails."""
     if quantity is None or not runs or not all(run.has(quantity) for run in runs):
         return None
     rows = tables.fits_if_any(options, "choices", *(run.path(quantity) for run in runs), *WHERE, "--bootstrap", options.bootstrap, *words)
@@ -116,7 +116,7 @@ def fitted(options, runs, quantity, *words):
 
 
 def of_choice(options, runs, choice):
-    """Row of a choice, with nan for quantities it does not affect."""
+    """Row of a choice, with nan for quantities that the choice does not affect."""
     title, variant, times, contacts, motion = choice
     runs = [run for run in runs if run.variant == variant]
     size, half = fitted(options, runs, contacts, "--partition", "size,half", *times) or (NONE, NONE)
@@ -129,14 +129,14 @@ def of_choice(options, runs, choice):
 
 
 def choices(options):
-    """B and B_kappa for choices that the paper does not state: one row per choice.
+    """Writes B and B_kappa for choices that the paper does not state, one row per choice.
 
-    The flow is the first of FLOWS that has run, all seeds, between 4 and 56 d_S. Other simulations (its variants) are
-    compared with the first 60 s of the flow, other reductions of the same frames with all of its time;
-    less and K_less are the differences. Intervals are over windows alone (docs/studies/uncertainty.md), because
-    often the same runs are compared.
-        B H       by size and by half, yy
-        K K_P     B_kappa, yy and of the pressure
+    The flow is the first of FLOWS that has finished, with all seeds, between 4 and 56 d_S. Other simulations (its variants)
+    are compared with the first 60 s of the flow. Other reductions of the same frames are compared with all times of the flow.
+    less and K_less are the differences. Intervals are over windows only (docs/studies/uncertainty.md), because many
+    comparisons use the same runs.
+        B H       B by size and by half, yy
+        K K_P     B_kappa of yy and of the pressure
     """
     runs = tables.runs_in(options.tables)
     flow = next((name for name in FLOWS if any(run.flow == name for run in runs)), "none")
@@ -145,27 +145,28 @@ def choices(options):
     rows = [row for row in rows if not all(math.isnan(row[name]) for name in NAMES)]
     base = None
     for row in rows:
-        base = row if row["choice"] in BASES or base is None else base
-        row["less"], row["K_less"] = row["B"] - base["B"], row["K"] - base["K"]
+        base = row if row["choice"] in BASES else base
+        other = base or row
+        row["less"], row["K_less"] = row["B"] - other["B"], row["K"] - other["K"]
     names = [name + end for name in NAMES for end in ENDS]
     tables.write(options.output, "choices", ["flow", "choice", "runs", *names, "less", "K_less"], rows)
 
 
 def mixtures(options):
-    """B of each mixture under every rule: B(p), B by rule and p*.
+    """Writes B of each mixture under every rule: B(p), B by rule, and p*.
 
-    For each flow at 23 degrees with another Phi_L (or --flows), layers from 4 to 56 d_S, all times, all seeds together:
+    Each mixture is a flow at 23 degrees (or a flow of --flows), with layers from 4 to 56 d_S, all times and all seeds together:
         FILE/scan-FLOW.tsv    grseg-fit --scan: B over p with its band
-        FILE/rules.tsv        a row per flow and rule: B by size, contact-point, half with 95 % intervals over runs, B of
-                              neutral contacts with the same weights, p* with its interval, and the mean share that the rule gives
+        FILE/rules.tsv        a row per flow and rule: B by size, contact-point and half with 95 % intervals over runs, B of
+                              neutral contacts with the same weights, p* with its interval, and the mean share of the rule
     """
     flows = tables.flows_in(options, lambda run: run.slope == 23 and not run.variant)
     os.makedirs(options.output, exist_ok=True)
     rows = []
     for flow, runs in flows.items():
         words = [*(run.path("stress") for run in runs), *WHERE, "--bootstrap", options.bootstrap]
-        tables.program(options, "grseg-fit", *words, "--scan", "0.4:0.9:0.0125", "--overwrite", "-o",
-                       os.path.join(options.output, f"scan-{flow}.tsv"))
+        tables.shared.tool(options.bin, "grseg-fit", *words, "--scan", "0.4:0.9:0.0125", "--overwrite", "-o",
+                           os.path.join(options.output, f"scan-{flow}.tsv"))
         for fit_ in tables.fits(options, *words, "--partition", "size,contact-point,half"):
             rows.append({"flow": flow, "phi": runs[0].phi, "runs": len(runs), **{name: fit_[name] for name in ("rule", "neutral", "share")},
                          **{f"{to}{end}": fit_[f"{name}{end}"] for to, name in (("B", "B"), ("p_star", "p_zero")) for end in ENDS}})

@@ -2,7 +2,6 @@
 import math
 
 import tables
-import grseg
 
 MEASURED = ("small", "large", "H0", "yL0", "yL1", "rate", "strain", "t50", "tau", "z_S", "z_L", "f_S",
             "f_L", "zf_S", "zf_L", "duration")
@@ -19,7 +18,7 @@ def of_segregation(run):
 
 
 def of_contacts(options, run, duration):
-    """Contacts and forces of the whole bed (last row of the pooled windows); of a short run, its second half."""
+    """Contacts per grain and forces in the whole bed, from 10 to 60 s, or from the second half of a run of less than 20 s."""
     _, rows = tables.program(options, "grseg-derive", run.path("micro"), "--pool",
                              "windows", "--begin", min(10, duration / 2), "--end", 60, "--quiet")
     bed = rows[-1]
@@ -28,10 +27,10 @@ def of_contacts(options, run, duration):
 
 
 def weight(runs):
-    """The weight of grseg-fit, from the areas of the two species in the layers inside."""
+    """Weight of these runs in B of several flows, as in grseg-fit: frames times phi_L phi_S, summed over the layers inside."""
     total = 0
     for run in runs:
-        sums = grseg.read_table(run.path("stress"))
+        sums = tables.table(run.path("stress"))
         d, small, large = sums.number("small_diameter"), sums["area_S"], sums["area_L"]
         use = (4 * d < sums["y0"] + d / 2) & (sums["y1"] - d / 2 < 56 * d) & (0.01 * large <= small) & (small <= 100 * large) & (large > 0)
         total += (sums["frames"] * small * large)[use] @ (1 / (small + large)[use] ** 2)
@@ -45,7 +44,7 @@ def of_run(options, run):
 
 
 def fitted(fits, flow, quantity, stage, label):
-    """B of one fit of the flow, with its interval, under names that begin with label."""
+    """B of one fit of the flow, with its interval, as {label, label_low, label_high}."""
     name = "paper_B" if quantity == "kinetic" else "B"
     row = next((row for row in fits if (row["set"], row["quantity"], row["stage"]) == (flow, quantity, stage) and row["component"] == "yy"
                 and row["heights"] == "inside" and row["rule"] in ("size", "kinetic")), {})
@@ -77,14 +76,15 @@ def flows(options):
         yL0 yL1       y_L/H in the first and in the last window
         rate          mean shear rate from 10 s on, units of sqrt(g/d_S): slope of u(y) from 10 to 90 % of
                       the depth (grseg-segregation)
-        strain        of the whole run; t50 and tau of y_L(t), s
+        strain        shear strain of the whole run; t50 and tau: times of y_L(t), s
         z_S z_L f_S f_L zf_S zf_L
-                      whole bed from 10 to 60 s: contacts per grain, mean |f| over contacts in units of
+                      in the whole bed from 10 to 60 s: contacts per grain, mean |f| over contacts in units of
                       m_S g (grseg-micro), and their product
         step window duration
-                      s; frames: in a window; program: that simulated, with its version
-        weight        in a fit of several flows: frames times phi_L phi_S, over all layers inside
-    B_... and K_... are B by size and B_kappa as the paper fits it (yy, inside), of all times and, B60 and K60, of the first 60 s.
+                      time step, length of a window and of the run, s; frames: number of frames in a window; program:
+                      simulator with its version
+        weight        weight in a fit of several flows: frames times phi_L phi_S, over all layers inside
+    B_... and K_... are B by size and B_kappa by the paper's fit (yy, inside), for all times; B60 and K60 for the first 60 s.
     """
     _, fits = tables.read(options.fits)
     rows = [line(options, flow, runs, fits) for flow, runs in tables.by_flow(tables.runs_in(options.tables)).items()]

@@ -1,4 +1,4 @@
-"""Tables of a campaign as they are kept beside the code."""
+"""Makes and unpacks the archive data/reproduction/tables.tar.bz2: small copies of a campaign's tables."""
 import io
 import math
 import os
@@ -6,54 +6,56 @@ import re
 import shutil
 import sys
 import tarfile
+import time
 
 import tables
 from tables import shared
 
 KEYS = ("t0", "t1", "y0", "y1", "frames", "V")
-# Length of the kept windows, s: whole multiples of those in the tables.
+# Length of the archived windows, s; whole multiples of the windows in the tables.
 WINDOW = {"micro": 5, "balance": 7.5}
-# Significant digits; of the paper's flows fewer for stresses, which scatter more from layer to layer.
+# Significant digits. Stresses of the paper's flows have fewer, because they scatter more from layer to layer.
 DIGITS = 3
 STRESS_DIGITS = {"stress": 2, "stress-random": 2, "kinetic": 2}
-# The columns that are kept beside KEYS, as regular expressions.
+# Columns that are archived besides KEYS, as regular expressions.
 STRESS = "area_.|(A_SS|A_LL|M|Msize|A_Sb|A_Lb)_(xx|yy)"
 COLUMNS = {
     "stress": STRESS + "|(Mcp|F_Sb|F_Lb)_yy", "stress-random": STRESS, "kinetic": "mass_.|grains_.|K_._(xx|yy)",
     "micro": STRESS + "|grains_.|ends_.|(n|sum_f|sum_fn)_..|base_f.|yL|yS|height",
     "balance": "gravity_L_y|push|push_kinetic|drag", "segregation": "yL|height|shear_rate|strain",
 }
-# The figures of profiles and balance show one flow, the snapshots its first seed.
+# The figures of profiles and balance show one flow; the snapshots show its first seed.
 DRAWN = "phi0.30-s23"
 DRAWN_COLUMNS = {
     "kinetic": "|layer_bias_._(xx|yy)",
     "balance": "|(rate|gravity|contact|kinetic|interaction|base|residual)_._.|rho_L|phi_L|psik?_L|scatter|drift",
 }
-# grseg's programs read these, and must know which columns are missing on purpose.
+# Tables that grseg's programs read; a line "# not kept: ..." names the columns that are missing on purpose.
 READ_AGAIN = ("stress", "stress-random", "micro")
 OF_PLAIN = ("stress", "kinetic", "micro", "balance", "segregation")
-OF_VARIANTS = ("micro", "segregation")  # their other results are in the choices
+OF_VARIANTS = ("micro", "segregation")  # choices.tsv includes the other results of variants
 OF_CONTROL = ("stress-random",) + OF_VARIANTS
-# Tables of the questions' runs, where they exist; in longer windows, which do not change ratios of sums, and with the flux of layers.
+# Tables of the runs of `make questions`, if they exist. Their windows are longer, which does not change ratios of sums, and
+# include the flux by layer.
 OF_QUESTIONS = ("stress", "stress-random", "kinetic", "kinetic-instant", "kinetic-unbiased", "kinetic-middle", "kinetic-unbiased-middle",
                 "micro", "segregation", "balance-rules")
 COLUMNS["balance-rules"] = r"gravity_L_y|phi_L|B_kappa|push\S*|drag\S*|N_L_y|p_zero"
-QUESTION_WINDOW = 5  # s
+QUESTION_WINDOW = 5  # length of their windows, s
 COLUMNS["flux"] = COLUMNS["segregation"] + r"|area_.|mass_.|phi_L|q_L|q_L_error|D|dphi_dy|dphi_dy_error|mvv_._yy|gain_._y"
-# Means over the windows in which the layer holds grains; of all others a layer that is missing counts as empty.
+# Columns whose mean is over the windows in which the layer has grains; in other columns a missing layer counts as 0.
 OF_PRESENT = ("phi_L", "q_L", "q_L_error", "D", "dphi_dy", "dphi_dy_error", "shear_rate", "B_kappa", "p_zero")
 WHOLE = ("segregation-summary", "record")
 
 
 def numbers_of(path):
-    """Lines before the rows, column names with units, rows of numbers."""
+    """Header lines, column names with units, and rows of numbers."""
     head, names, rows = shared.lines_of(path)
     return head, names, [[float(cell) for cell in row] for row in rows]
 
 
 def coarse(rows, window, at, errors=(), of_present=()):
-    """Merges the rows of each coarse window and layer; `at` gives the index of a column, `errors` are columns of
-    independent errors, `of_present` of means over the windows that have the layer."""
+    """Merges the rows of each longer window and layer into means weighted by frames. at(name) is the index of a column.
+    `errors` are the columns of independent errors; `of_present` are the columns of OF_PRESENT."""
     t0, t1, y0, frames = (at(name) for name in ("t0", "t1", "y0", "frames"))
     groups, total, first, end = {}, {}, {}, {}
     begin = min(row[t0] for row in rows)
@@ -105,14 +107,14 @@ def small_table(run, table, question=False):
 
 
 def snapshots(run):
-    """Positions with four digits, radii with three."""
+    """Text of snapshots.tsv with four digits for positions and three for radii."""
     head, names, rows = numbers_of(run.path("snapshots"))
     lines = [f"{t:g}\t{species:g}\t{x:.4g}\t{y:.4g}\t{r:.3g}" for t, species, x, y, r in rows]
     return "\n".join(head + ["\t".join(names)] + lines) + "\n"
 
 
 def without_folders(text):
-    """Removes folders from the file names in the history."""
+    """The table with file names without folders in its history."""
     return shared.changed(text, r"(?m)^(# history: .*)$", lambda line: re.sub(r"(?<=\s)/\S*/", "", line[0]))
 
 
@@ -132,13 +134,13 @@ def files_of(run, question):
 
 
 def keep(options):
-    """Tables of a campaign made small enough to be kept beside the code: fewer digits, columns and windows.
+    """Writes the tables of a campaign into an archive that is small enough for the repository.
 
-    --questions: the runs of `make questions` and of the second program instead of the paper's, and all that
-    questions, stages and mixtures read of them.
-    Of every finished run the archive holds what the figures and fits of the document need (COLUMNS): numbers with
-    two or three digits, windows merged (WINDOW) as means weighted by frames, where a layer that is missing in a window
-    counts as empty. The same tables give the same bytes. make -C scripts reproduction.md reads them.
+    The archive includes, for every finished run, the columns that figures and fits of the document need (COLUMNS). Numbers
+    have two or three digits. Windows are merged (WINDOW) into means weighted by frames; a layer that is missing in a window
+    counts as empty. The same tables give the same bytes. make -C scripts reproduction.md reads the archive.
+    --questions: archives instead the runs of `make questions` and of the second program (LAMMPS), with all columns that
+    questions, stages and mixtures read.
     """
     part = options.archive + ".part"
     with tarfile.open(part, "w:bz2") as archive:
@@ -153,13 +155,17 @@ def keep(options):
 
 
 def unpack(options):
-    """Unpacks the tables of the archive in KEPT into FOLDER, unless that is up to date."""
+    """Unpacks the tables of the archive in the folder KEPT into FOLDER, unless FOLDER is newer than the archive. The files have
+    the present time, so that make sees that they have changed."""
     archive, mark = os.path.join(options.kept, "tables.tar.bz2"), os.path.join(options.folder, "unpacked")
     if not os.path.isfile(archive):
-        sys.exit(f"unpack: {archive}: no such file")
+        sys.exit(f"unpack: {archive}: no such file; name the folder with tables.tar.bz2")
     if os.path.exists(mark) and os.path.getmtime(mark) > os.path.getmtime(archive):
         return
-    shutil.rmtree(options.folder, ignore_errors=True)
+    if os.path.exists(options.folder):
+        shutil.rmtree(options.folder)
     with tarfile.open(archive) as kept:
+        for entry in kept.getmembers():
+            entry.mtime = time.time()
         kept.extractall(options.folder)
     open(mark, "w").close()

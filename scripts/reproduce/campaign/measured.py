@@ -1,4 +1,4 @@
-"""Measured values: the tables of fits, flows and numbers, by name, and numbers as text."""
+"""Measured values by name, from the tables of fits, flows and numbers; and numbers as text."""
 import math
 import os
 
@@ -7,7 +7,7 @@ import tables
 
 
 class Value:
-    """A number with its 95 % interval and standard error; low, high and error are nan where there is none."""
+    """A number with its 95 % interval and standard error; low, high and error are nan if unknown."""
 
     def __init__(self, value, low=math.nan, high=math.nan, error=math.nan):
         self.value, self.low, self.high, self.error = value, low, high, error
@@ -39,12 +39,12 @@ def plain(value, digits):
 
 
 def of_student(value, low, high, freedom):
-    """A value whose interval was made by Student's t with so many degrees of freedom; nan: a normal one."""
+    """A Value whose interval was made by Student's t with `freedom` degrees of freedom; nan means a normal distribution."""
     return Value(value, low, high, (high - low) / 2 / tables.student(1e9 if math.isnan(freedom) else freedom))
 
 
 class Measured:
-    """Everything the document quotes, read from the tables in `folder`."""
+    """All numbers that the document quotes, read from the tables in `folder`."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -63,7 +63,7 @@ class Measured:
 
     def row(self, which, rule="size", component="yy", heights="inside", stage="all",
             quantity="contact"):
-        """Row of a fit; None where there is none."""
+        """Row of the table of fits; None if there is no such fit."""
         if quantity == "kinetic":
             rule = "kinetic"
         for row in self.fits:
@@ -79,7 +79,7 @@ class Measured:
         return of_student(row[name], row.get(f"{name}_low", math.nan), row.get(f"{name}_high", math.nan), row["degrees_of_freedom"])
 
     def of_slope(self, which, of, **how):
-        """A number that falls with the slope s of the paper's fit."""
+        """of(s), a function that decreases with the slope s of the paper's fit, with its interval."""
         s = self.fit(which, "paper_s", **how)
         return Value(*(math.nan if math.isnan(end) else of(end) for end in (s.value, s.high, s.low)))
 
@@ -87,7 +87,7 @@ class Measured:
         return next((row for row in self.flows if row["flow"] == name), None)
 
     def of_scan(self, name):
-        """A number from the `#` lines above B(p)."""
+        """A number from the header of the table of B(p), with its interval."""
         return Value(*(float(self.scan.get(name + end, "nan")) for end in ("", "_low", "_high")))
 
     def of_flow(self, name, quantity):
@@ -98,14 +98,14 @@ class Measured:
         return of_student(value, value - half, value + half, max(1, row["seeds"] - 1))
 
     def flows_with(self, name):
-        """The flows, or sets of flows, that have a number of this name, in order."""
+        """Names of the flows, or sets of flows, that have a number of this name, sorted."""
         return sorted(of for of, other in self._numbers if other == name)
 
     def plain_flows(self):
         return [row for row in self.flows if row["variant"] == "none"]
 
     def mixtures(self):
-        """The flows of 23 degrees that have a B, in order of phi_L."""
+        """Rows of the flows at 23 degrees that have a B, in order of phi_L."""
         return [row for row in self.plain_flows() if row["slope"] == 23 and not math.isnan(row["B"])]
 
     def range_over_mixtures(self, digits):
@@ -114,7 +114,7 @@ class Measured:
 
 
 def line_fit(x, y):
-    """Slope and level at x = 0 of the least-squares line, with 95 % intervals from its residuals."""
+    """Slope, and level at x = 0, of the least-squares line, with 95 % intervals from its residuals."""
     if len(x) < 3:
         return Value(math.nan), Value(math.nan)
     level, slope, (of_level, _, of_slope), left = tables.line(x, y)

@@ -1,4 +1,4 @@
-"""The numbers behind the paper's figures, other than fits."""
+"""Numbers from which the paper's figures are drawn, other than fits."""
 import math
 import statistics
 import sys
@@ -8,31 +8,30 @@ import numpy as np
 import profiles
 import rise
 import tables
-from profiles import grseg
 
 QUARTERS = 4
 
 
 class Part:
-    """Runs that are measured together, between two times."""
+    """Runs that are measured together, between two times, s."""
 
     def __init__(self, runs, begin=-math.inf, end=math.inf):
         self.runs, self.begin, self.end = runs, begin, end
 
 
 def parts_of(runs, begin=0):
-    """Each run from `begin` on; with fewer than three runs, quarters of each."""
+    """A Part for each run from `begin` (s) on; if there are fewer than three runs, a Part for each quarter of each run."""
     if len(runs) > 2:
         return [Part([run], begin) for run in runs]
     parts = []
     for run in runs:
-        edges = np.linspace(begin, grseg.read_table(run.path("segregation"))["t1"].max(), QUARTERS + 1)
+        edges = np.linspace(begin, tables.table(run.path("segregation"))["t1"].max(), QUARTERS + 1)
         parts += [Part([run], *pair) for pair in zip(edges, edges[1:])]
     return parts
 
 
 def pressures(_, part):
-    """Figures 2a and 3a: profiles of one run."""
+    """Numbers of figures 2a and 3a, from the profiles of one run."""
     run = part.runs[0]
     profile = profiles.Profile([run.path("stress")], [run.path("kinetic")], part.begin, part.end)
     use = profile.inside()
@@ -43,10 +42,10 @@ def pressures(_, part):
              "P_slope": -statistics.linear_regression(height, at["P"]).slope, "nu": at["nu"].mean(), "weight": over_weight.mean(),
              "Kyy/syy_least": parts.min(), "Kyy/syy_most": parts.max(), "Kyy/syy": parts.mean()}
     for name in ("K", "K_solid", "K_layer", "K_layer_solid"):
-        # P^kappa = a exp(-z/l): a straight line of the logarithm.
+        # P^kappa = a exp(-z/l), fitted as a straight line to the logarithm.
         slope, level = statistics.linear_regression(height, np.log(at[name]))
         found[f"{name}_prefactor"] = math.exp(level)
-        found[f"{name}_decay"] = -1 / slope / 2  # d_L
+        found[f"{name}_decay"] = -1 / slope / 2  # decay length in d_L
         found[f"{name}_lowest"] = at[name][0]
     found["shear_share"] = (at["K_layer"] / at["K"]).mean() - 1
     return found
@@ -57,14 +56,15 @@ def derived(options, runs, *words):
 
 
 def last_layers(part):
-    """Heights of the layers of the last window, areas of small and of large grains, numbers of large grains."""
-    table = grseg.read_table(part.runs[0].path("micro"))
+    """Layers of the last window: heights, areas of small grains, areas of large grains, numbers of large grains."""
+    table = tables.table(part.runs[0].path("micro"))
     use = (table["t1"] == table["t1"][-1]) & ~np.isnan(table["y0"])
     return [table[name][use] for name in ("y0", "area_S", "area_L", "grains_L")]
 
 
 def separation(options, part):
-    """Figure 1: the place of the large grains in the last window, and how mixed the species are then."""
+    """Numbers of figure 1, in the last window: height of the large grains, from 0 (below) to 1 (above); and degree of
+    mixing, from 0 (separated) to 1 (mixed)."""
     end = over_windows(options, part)[-1]["yL/H"]
     _, areas_small, areas_large, _ = last_layers(part)
     both = areas_small + areas_large
@@ -74,13 +74,13 @@ def separation(options, part):
 
 
 def trapped(options, part):
-    """Large grains in the lowest layer at the end: a row that the base traps, or next to none."""
+    """Number of large grains in the lowest layer at the end: a row that the base traps, or almost none."""
     heights, *_, large_grains = last_layers(part)
     return {"lowest_large": large_grains[heights.argmin()]}
 
 
 def strength(options, runs, *words, name="B"):
-    """B of all runs together, inside."""
+    """B of all runs together, from layers inside."""
     kind = "kinetic" if "kinetic" in words else "stress"
     return tables.fits(options, *(run.path(kind) for run in runs), "--heights", "4dS:56dS",
                        "--over", "windows", "--bootstrap", 0, "--quiet", *words)[0][name]
@@ -92,7 +92,7 @@ def early_less_late(options, part):
 
 
 def differences(options, part):
-    """B of the pressure less B of yy, B of kinetic stress over B, and B early less late, from the same runs."""
+    """B of the pressure minus B of yy, B of kinetic stress over B, and B of early minus late times, from the same runs."""
     b = strength(options, part.runs)
     return {"pressure_less_yy": strength(options, part.runs, "--component", "pressure") - b,
             "B_kappa/B": -strength(options, part.runs, "--quantity", "kinetic", name="paper_B")
@@ -101,12 +101,12 @@ def differences(options, part):
 
 
 def layers_of(part, *window):
-    """Pairs of Phi_L and layers inside, of each run."""
+    """Pairs of Phi_L and layers inside, one per run."""
     return [(run.phi, rise.layers_of(run.path("micro"), *window)) for run in part.runs]
 
 
 def mixed_share(options, part):
-    """Figure 2c, by composition inside."""
+    """Numbers of figure 2c, by composition of layers inside."""
     bins = derived(options, part.runs, "--pool", "composition", "--heights", "4dS:56dS")
     most = max(bins, key=lambda row: row["mixed_share"])
     off = [row["mixed_share"] - row["neutral_share"] for row in bins]
@@ -115,7 +115,7 @@ def mixed_share(options, part):
 
 
 def estimates(options, part):
-    """Figure 5: errors of Pi, %, over compositions inside: mean and largest."""
+    """Numbers of figure 5: mean and largest error of Pi, %, over compositions of layers inside."""
     found = {}
     for label, words in (("contacts", ["--preset", "paper"]),
                          ("ends", ["--force", "normal", "--average", "ends"])):
@@ -137,7 +137,7 @@ def b_of_structure(options, runs, words):
     with the weights and the range of grseg-fit."""
     sum_log = sum_weight = 0
     for run in runs:
-        sums = grseg.read_table(run.path("micro"))
+        sums = tables.table(run.path("micro"))
         rarer = dict(zip(zip(sums["t0"], sums["y0"]), np.minimum(sums["grains_S"], sums["grains_L"])))
         for row in derived(options, [run], "--heights", "4dS:56dS", *words):
             phi = row["phi_L"]
@@ -150,12 +150,12 @@ def b_of_structure(options, runs, words):
 
 
 def over_windows(options, part):
-    """The whole bed, window by window."""
+    """Rows of grseg-derive for the whole bed, window by window."""
     return [row for row in derived(options, part.runs) if math.isnan(row["y0"])]
 
 
 def over_time(options, part):
-    """Figure 6: the whole bed."""
+    """Numbers of figure 6, for the whole bed."""
     rows = over_windows(options, part)
     ratio = lambda row, name: row[f"{name}_L"] / row[f"{name}_S"]
     z = [ratio(row, "z") for row in rows]
@@ -176,7 +176,7 @@ def over_time(options, part):
 
 
 def pushes(_, part):
-    """Forces on the large grains inside in thousandths of their weight, upward positive."""
+    """Forces on the large grains inside, in thousandths of their weight, positive upward."""
     names = "push", "push_kinetic", "drag"
     layers = profiles.Layers([part.runs[0].path("balance")], begin=part.begin, end=part.end, present=names)
     use = layers.inside()[layers.layer]
@@ -187,7 +187,7 @@ def pushes(_, part):
 
 
 def collected(options, label, parts, measure):
-    """A row for each number of `measure`: its mean over the parts, with its interval."""
+    """A row for each number of measure(options, part): its mean over the parts, with its interval."""
     found, runs = [], set()
     for part in parts:
         try:
@@ -204,13 +204,13 @@ def collected(options, label, parts, measure):
 
 
 def numbers(options):
-    """The numbers behind the paper's figures, other than fits: one row per number, with its 95 % interval.
+    """Writes the numbers of the paper's figures, other than fits: one row per number, with its 95 % interval.
 
-    Each number is measured in every seed separately (of one flow, or of the six mixtures together); value, low,
-    high and error are the mean, its interval by Student's t over seeds and its standard error. With fewer than three seeds, numbers that
-    a part of a run suffices for (profiles, forces) are measured in each QUARTER of the time, and the interval is
-    over these; all others have no interval (nan). Profiles are means over the last third of the time. `inside`
-    is 4 to 56 d_S.
+    Each number is measured in every seed separately (of one flow, or of the six mixtures together). value, low, high and
+    error are the mean, its interval by Student's t over seeds, and its standard error. If there are fewer than three seeds,
+    numbers that need only part of a run (profiles, forces) are measured in each quarter of the time (QUARTERS), and the
+    interval is over these; other numbers have no interval (nan). Profiles are means over the last third of the time. `inside`
+    means heights from 4 to 56 d_S.
     """
     every = tables.runs_in(options.tables)
     runs = [run for run in every if not run.variant]

@@ -1,22 +1,21 @@
-"""Layer-by-layer means over windows, from one flow's tables of grseg-stress and grseg-kinetic, or of grseg-balance."""
+"""Means over windows by layer, from one flow's tables of grseg-stress and grseg-kinetic, or of grseg-balance."""
 import itertools
 import math
 
 import numpy as np
 
 import tables
-import grseg
 
 CONTACTS = ("A_SS", "A_LL", "M", "A_Sb", "A_Lb")
 
 
 def last_third(path):
     """Begin of the last third of a table's time, s."""
-    return grseg.read_table(path)["t1"].max() * 2 / 3
+    return tables.table(path)["t1"].max() * 2 / 3
 
 
 def ratio(above, below, layer):
-    """Ratio of two sums over the rows of each layer, and its standard error; two arrays by layer."""
+    """Ratio of two sums over the rows of each layer, and its standard error: two arrays by layer."""
     n, total = np.bincount(layer), np.bincount(layer, below)
     with np.errstate(divide="ignore", invalid="ignore"):
         value = np.where(total != 0, np.bincount(layer, above) / total, np.nan)
@@ -25,21 +24,21 @@ def ratio(above, below, layer):
 
 
 class Layers:
-    """Rows of tables, columns by name, whose windows lie between begin and end (s) and which have numbers in the columns
-    `present`. `layer` is the number of each row's layer; y (m), `middle` (d_S) and `windows` belong to the layers.
+    """Rows of tables whose windows are between begin and end (s) and whose columns `present` are not nan.
 
-    `beside`: further tables of the same windows and layers, whose columns are added.
+    `rows`: columns by name; `layer`: index of each row's layer. Arrays by layer: bottom y (m), middle height `middle` (d_S),
+    number of windows `windows`. `beside`: further tables of the same windows and layers, whose columns are added.
     """
 
     def __init__(self, paths, beside=(), begin=-math.inf, end=math.inf, present=()):
         parts = []
         for path, other in itertools.zip_longest(paths, beside):
-            table = grseg.read_table(path)
+            table = tables.table(path)
             use = (table["t0"] >= begin - 1e-9) & (table["t1"] <= end + 1e-9)
             use &= ~np.isnan(sum((table[name] for name in present), np.zeros(len(table))))
             columns = {name: table[name][use] for name in table.columns}
             if other:
-                more = grseg.read_table(other)
+                more = tables.table(other)
                 place = {key: k for k, key in enumerate(zip(more["t0"], more["y0"]))}
                 rows = [place[key] for key in zip(columns["t0"], columns["y0"])]
                 columns |= {name: more[name][rows] for name in more.columns if name not in columns}
@@ -58,7 +57,7 @@ class Layers:
 
 
 class Profile(Layers):
-    """Stresses over height, and the weight that they bear."""
+    """Stresses over height, and the weight that they support."""
 
     def __init__(self, stress, kinetic=(), begin=-math.inf, end=math.inf):
         super().__init__(stress, kinetic, begin, end)
@@ -72,7 +71,8 @@ class Profile(Layers):
         return sum(self.rows[f"{part}_{component}"] for part in CONTACTS)
 
     def kinetic(self, component, stems=("K",)):
-        """Sum of m dv (x) dv, by row, J; about the mean of the layer if stems are K and layer_bias, else about the profile."""
+        """Sum of m dv (x) dv by row, J. dv is relative to the profile of the mean velocity, or to the mean velocity of the layer
+        if stems are K and layer_bias."""
         return sum(self.rows[f"{stem}_{species}_{component}"] for stem in stems for species in "SL")
 
     def height(self):
@@ -86,7 +86,7 @@ class Profile(Layers):
         return (above - mass / 2) * -self.gy / float(self.header["length"])
 
     def columns(self):
-        """Values and standard errors of the layers by name, stresses in units of rho g d_S."""
+        """Values and standard errors by layer, for each column name; stresses are in units of rho g d_S."""
         half_trace = lambda tensor, *stems: (tensor("xx", *stems) + tensor("yy", *stems)) / 2
         area, volume, pressure = self.area, self.rows["V"], half_trace(self.contact)
         parts = {"P": (pressure, volume), "P_solid": (pressure, area), "syy": (self.contact("yy"), volume)}

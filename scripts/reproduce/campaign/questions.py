@@ -1,21 +1,20 @@
-"""Questions that the paper leaves open, flow by flow, and in the limit of rigid discs."""
+"""Questions that the paper leaves open: results flow by flow, and in the limit of rigid discs."""
 import math
 import re
 import sys
 
 import tables
-import grseg
 
 NAN = math.nan
-FLOW_BEFORE = 10  # s of the paper's flow before the state from which another program continues (open-questions.md)
+FLOW_BEFORE = 10  # time at which LAMMPS continues from a state of the paper's flow, s (docs/studies/open-questions.md)
 
 
 NO_FIT = (NAN,) * 5
 
 
 def fitted(options, runs, quantity, column, *words, table=None):
-    """Value, interval, standard error and degrees of freedom of a number of grseg-fit of all these runs; nan where it
-    cannot be told. Of several mixtures it is B of these flows, weighted as they are."""
+    """Value, low, high, standard error and degrees of freedom of a number of grseg-fit for all these runs; nan if unknown.
+    For several mixtures the population is --over flows: each flow with its weight."""
     table = table or {"contact": "stress", "kinetic": "kinetic"}[quantity]
     if not runs or not all(run.has(table) for run in runs):
         return NO_FIT
@@ -25,7 +24,7 @@ def fitted(options, runs, quantity, column, *words, table=None):
     if not rows:
         return NO_FIT
     if len(rows) != 1:
-        sys.exit(f"questions: {runs[0].flow}: grseg-fit printed {len(rows)} rules where one was asked for")
+        sys.exit(f"questions: {runs[0].flow}: grseg-fit printed {len(rows)} rules, but one was expected")
     value, low, high = (rows[0][column + end] for end in tables.ENDS)
     freedom = rows[0]["degrees_of_freedom"]
     freedom = 1e9 if math.isnan(freedom) else freedom
@@ -33,13 +32,13 @@ def fitted(options, runs, quantity, column, *words, table=None):
 
 
 def inside(run):
-    """4 to 56 d_S of a bed of 60 d_S; of another the same distances from base and surface."""
+    """The option --heights: 4 to 56 d_S for a bed of 60 d_S, and the same distances from base and surface for another."""
     depth = re.search(r"depth(\d+)dS", run.flow)
     return ["--heights", f"4dS:{int(depth[1]) - 4 if depth else 56}dS"]
 
 
 def strengths(options, runs, begin, end):
-    """Everything that grseg-fit tells of these runs between two times."""
+    """All numbers of grseg-fit for these runs between two times, by name."""
     where = [*inside(runs[0]), "--begin", begin, "--end", end]
     table = "stress-random" if re.search("-ratio1(-|$)", runs[0].flow) else None
     of = lambda column, *words, quantity="contact", only=None: fitted(options, runs, quantity, column, *words, table=only or table)
@@ -52,9 +51,10 @@ def strengths(options, runs, begin, end):
 
 
 def of_bed(run):
-    """y_L/H and the large grains of the lowest layer in the last window, the mean shear rate."""
+    """Numbers of the run's bed: y_L/H and number of large grains in the lowest layer, both in the last window; mean shear
+    rate; mean overlap; f_ratio."""
     found = {"yL_end": NAN, "trapped": NAN, "rate": NAN, "overlap": NAN, "f_ratio": NAN}
-    sums = grseg.read_table(run.path("stress"))
+    sums = tables.table(run.path("stress"))
     last = sums["area_L"][(sums["t0"] == sums["t0"][-1]) & (sums["y0"] == 0)]
     if len(last) and "large_diameter" in sums.header:
         found["trapped"] = last[0] / (math.pi / 4 * sums.number("large_diameter") ** 2)
@@ -71,15 +71,15 @@ def of_bed(run):
 
 
 def force_ratio(run):
-    """Mean |f| of the contacts of large grains over the mean of small ones, whole bed, last 15 s; a mixed contact counts for both."""
-    sums = grseg.read_table(run.path("micro"))
+    """Mean |f| of the contacts of large grains over that of small grains, in the whole bed, last 15 s. A mixed contact counts for both."""
+    sums = tables.table(run.path("micro"))
     late = sums["t1"] > sums["t1"][-1] - 15
     of = lambda name, s: sum(sums[f"{name}_{pair}"][late].sum() for pair in (s + s, "LS", s + "b"))
     return of("sum_f", "L") / of("n", "L") / (of("sum_f", "S") / of("n", "S"))
 
 
 def line(options, flow, runs, paper):
-    end = min(grseg.read_table(run.path("stress"))["t1"][-1] for run in runs)
+    end = min(tables.table(run.path("stress"))["t1"][-1] for run in runs)
     row = {"flow": flow, "phi": runs[0].phi, "slope": runs[0].slope, "runs": len(runs), "end": end}
     own = strengths(options, runs, 0, end)
     before = FLOW_BEFORE if "-lammps" in flow else 0
@@ -99,21 +99,24 @@ def line(options, flow, runs, paper):
 
 
 def questions(options):
-    """Questions that the paper leaves open: each flow with another choice beside the paper's, over the same time.
+    """Writes results on questions that the paper leaves open: each flow with another choice, and the paper's over the same time.
 
-    TABLES are folders of finished runs (make reproduce, make questions). One row per flow that has
-    a B, and one of all mixtures for each restitution; layers from 4 to 56 d_S (the same part of a bed of another depth), windows from the tables. Intervals are 95 %, over runs if there are several,
-    else over windows. A comparison covers the time of the flow's own runs.
-        B B_half_rule B_pressure   by size, by half, by size from the pressure
-        B_fit                      by size from the paper's logarithmic fit, at phi = 1/2
-        p_star                     the share at which B = 0, by sums
-        K                          B_kappa, yy, half the sum of the end values, fluctuations about the profile; K_instant, K_unbiased about the
-                                   mean of layer and frame, K_middle with the velocity of the middle of the step; K_sums by sums
+    TABLES are folders of finished runs (make reproduce, make questions). There is one row per flow that has a B, and one row of
+    all mixtures for each restitution. Layers are from 4 to 56 d_S (or the same distances from base and surface in a bed of
+    another depth), windows are those of the tables. Intervals are 95 %, over runs if there are several, otherwise over windows.
+    A comparison is over the time of the flow's own runs.
+        B B_half_rule B_pressure   B by size, by half, and by size from the pressure
+        B_fit                      B by size from the paper's logarithmic fit: half the sum of the end values
+        p_star                     share at which B = 0, from ratios of sums
+        K                          B_kappa, yy, half the sum of the end values, for fluctuations about the profile; K_instant and
+                                   K_unbiased about the mean of layer and frame, K_middle with the velocity in the middle of the
+                                   step; K_sums from ratios of sums
         B_all                      B by size over all heights
-        B_paper K_paper            the same of the flow with the paper's choice, over the same time; less_B less_K: differences
-                                   with the interval of two independent sets of runs (Welch); B_error B_freedom: standard error and
-                                   degrees of freedom of B, likewise of the others
-        yL_end trapped f_ratio     y_L/H in the last window; large grains in the lowest layer then; f_L/f_S of the last 15 s
+        B_paper K_paper            B and K of the flow with the paper's choice, over the same time; less_B less_K: differences
+                                   with the interval of two independent sets of runs (Welch); B_error B_freedom: standard error
+                                   and degrees of freedom of B, likewise for the other numbers
+        yL_end trapped f_ratio     y_L/H, and number of large grains in the lowest layer, in the last window; f_L/f_S in the last
+                                   15 s
         overlap rate               mean overlap over d_S; mean shear rate from 10 s on, units of sqrt(g/d_S)
     """
     runs = {}
@@ -127,7 +130,7 @@ def questions(options):
         plain = "-".join(flow.split("-")[:2])
         rows.append(line(options, flow, of_flow, flows.get(plain, []) if of_flow[0].variant else []))
     for variant in ("e0.25", "e0.5"):
-        long = f"{variant}-t150"  # counts instead of a shorter run of the same mixture
+        long = f"{variant}-t150"  # longer runs, which replace shorter runs of the same mixture
         every = [run for flow, of_flow in flows.items() for run in of_flow
                  if run.variant == long or (run.variant == variant and f"{flow}-t150" not in flows)]
         if len(tables.by_flow(every)) > 1:
@@ -139,17 +142,17 @@ ACCURACIES = ("", "-draft-t150", "-reference-t150", "-finer-t150")
 
 
 def rigid_limit(options):
-    """B, p* and B_kappa in the limit of rigid discs: extrapolated to no overlap.
+    """Writes B, p* and B_kappa in the limit of rigid discs, extrapolated to zero overlap.
 
-    The rows of `questions` FLOW (standard), FLOW-draft-t150, -reference-t150 and -finer-t150 are
-    fitted by value = limit + k overlap^q, by least squares weighted with the rows' errors, for q = 1 (the error of a contact
-    law that is soft by its overlap) and q = 1/2; a logarithm would not have a limit. Intervals are 95 %, by Student's t with the fewest
-    degrees of freedom that a row has. chi2 is of the fit, with the number of rows less two degrees of freedom.
+    Fits value = limit + k overlap^q to the rows FLOW (standard), FLOW-draft-t150, -reference-t150 and -finer-t150 of the table
+    `questions`, by least squares weighted with the rows' errors. q is 1 (for an error in proportion to the overlap) and 1/2; a
+    logarithm would have no limit. Intervals are 95 %, by Student's t with the smallest degrees of freedom of a row. chi2 is that
+    of the fit, which has two degrees of freedom less than rows.
     """
     _, rows = tables.read(options.questions)
     chosen = [row for row in rows if row["flow"] in [options.flow + end for end in ACCURACIES] and not math.isnan(row["overlap"])]
     if len(chosen) < 3:
-        sys.exit(f"rigid-limit: {options.questions}: {len(chosen)} of the accuracies of {options.flow} were run; three are needed")
+        sys.exit(f"rigid-limit: {options.questions}: {options.flow} was run with {len(chosen)} accuracies; three are needed")
     found = []
     for name in ("B", "p_star", "K"):
         weights = [1 / row[name + "_error"] ** 2 for row in chosen]

@@ -1,47 +1,46 @@
-"""The dependence of B on the mixture: B as a product of factors, and its trend over mixtures where layers are alike.
+"""The dependence of B on the mixture: B as a product of factors, and the trend of B over mixtures for layers that are alike.
 
-From the sums of grseg-micro, merged into windows of WINDOW s, layers inside. With psi = sigma^L/sigma (yy, rule size), M the
-stress of mixed contacts and q = phi_L phi_S, sums over layers and windows weighted by frames give B as a product of
-three factors, exactly, and without the bias of the logarithm of a ratio of few grains:
+Sums of grseg-micro are merged into windows of WINDOW s, for layers inside. psi = sigma^L/sigma (yy, rule size), M is the
+stress of mixed contacts, and q = phi_L phi_S. Sums over layers and windows weighted by frames give B exactly as a product of
+three factors, without the bias that the logarithm of a ratio of few grains has:
 
     B            = sum(psi - phi_L)/sum(q) = beyond x mixed x geometry
-    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: the large grain's share of a mixed contact, less the
+    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: the large grain's share of a mixed contact minus the
                    share at which B = 0
     mixed        = sum(M/sigma)/sum(M/sigma of neutral contacts)
     geometry     = sum(M/sigma of neutral contacts)/sum(q); for neutral contacts M/sigma = q (1 + r)/(phi_L + r phi_S)
 
-and, in means of logarithms of layers with FEW grains or more of each species, weighted by q, four terms whose sum is
--ln s of sigma_yy; s = r (z_S/z_L)(f_S/f_L) belongs to the pressure (paper's last equation of section V), over contact
-ends, with normal forces:
+Means of logarithms over layers with at least FEW grains of each species, weighted by q, give four terms whose sum is -ln s of
+sigma_yy. s = r (z_S/z_L)(f_S/f_L) is valid for the pressure (the paper's last equation of section V), for means over contact
+ends and normal forces:
 
     ends         = -ln(r z_S/z_L)
-    forces       = -ln(f_S/f_L) if the ends that there are paired at random, each pair with its mean force
+    forces       = -ln(f_S/f_L) for the measured numbers of ends, paired at random, each pair with its mean force
     pairing      = -ln(f_S/f_L) - forces
-    normal       = the rest of sigma_yy, by which it differs from the pressure
+    normal       = the remaining term, by which sigma_yy differs from the pressure
 """
 import statistics
 
 import numpy as np
 
 import tables
-import grseg
 
-WINDOW, LONG_WINDOW = 5, 25  # s; in the longer one phi_L scatters less
-FEW = 3
+WINDOW, LONG_WINDOW = 5, 25  # lengths of windows, s; in the longer one phi_L scatters less
+FEW = 3  # least number of grains of each species
 PAIRS = ("SS", "LS", "LL", "Sb", "Lb")
-# Edges of the classes in which layers count as alike; gradient of phi_L upward in 1/d_S, t in s, y in d_S.
+# Edges of the classes in which layers count as alike: phi_L, height y in d_S, time t in s, gradient d phi_L/dy in 1/d_S.
 CLASSES = {"phi": (0.05, 0.1, 0.2, 0.4, 0.6, 0.8), "y": (20, 36), "t": (tables.EARLY, tables.LATE),
            "gradient": (-0.02, -0.01, -0.003, 0.003, 0.01, 0.02)}
 ALIKE = ((), ("phi",), ("y",), ("gradient",), ("phi", "y"), ("phi", "y", "t"), ("phi", "y", "gradient"))
-FROM = 0.3  # Phi_L; below, layers hold few large grains
+FROM = 0.3  # least Phi_L of the upper mixtures; layers of mixtures with less have few large grains
 
 
 def layers_of(path, window=WINDOW):
-    """Layers inside, with both species, of one run's table of grseg-micro, in windows of so many seconds.
+    """Layers inside with both species, from one run's table of grseg-micro, in windows of `window` s.
 
-    A record array of sums over the frames of a window: contents, contacts n_ and normal forces f_ by pair, stresses `small` and
-    `large`; and of what follows from them. r is the ratio of diameters."""
-    table = grseg.read_table(path)
+    Returns a record array. It includes sums over the frames of a window: contents, numbers of contacts n_ and normal forces f_
+    by pair, stresses `small` and `large`; and numbers that follow from these sums. r is the ratio of diameters."""
+    table = tables.table(path)
     d = table.number("small_diameter")
     r = table.number("large_diameter") / d
     use = ~np.isnan(table["y0"]) & (table["area_S"] + table["area_L"] > 0)
@@ -62,7 +61,7 @@ def layers_of(path, window=WINDOW):
            "neutral": q * (1 + r) / (phi + r * (1 - phi)), "gradient": np.full(len(at), np.nan)}
     step = np.diff(at, axis=0)
     joined = (step[:, 0] == 0) & (abs(step[:, 1] - thickness[:-1]) < 2e-6)
-    between = np.flatnonzero(joined[1:] & joined[:-1]) + 1  # layers above one and below another
+    between = np.flatnonzero(joined[1:] & joined[:-1]) + 1  # layers that have a layer below and one above
     of["gradient"][between] = (phi[between + 1] - phi[between - 1]) / (2 * thickness[between])
     layers = np.rec.fromarrays(list(of.values()), names=list(of))
     low, high = tables.INSIDE
@@ -70,12 +69,12 @@ def layers_of(path, window=WINDOW):
 
 
 def ends(layers):
-    """Contact ends on small and on large grains."""
+    """Numbers of contact ends on small grains and on large grains."""
     return 2 * layers.n_SS + layers.n_LS + layers.n_Sb, 2 * layers.n_LL + layers.n_LS + layers.n_Lb
 
 
 def logarithms(layers):
-    """ends, forces, pairing, normal of each layer; not finite where a kind of contact is missing."""
+    """The terms ends, forces, pairing and normal of each layer; not finite if a kind of contact is missing."""
     small, large = ends(layers)
     with np.errstate(divide="ignore", invalid="ignore"):
         by_ends = -np.log(small / large / (layers.r * layers.area_S / layers.area_L))
@@ -94,7 +93,8 @@ def factors(layers):
 
 
 def terms(layers):
-    """Means of the logarithmic terms, and the number of mixed contacts over their number for neutral and for random pairs."""
+    """Means of the logarithmic terms, and ratios of the number of mixed contacts to their number for neutral contacts and for
+    random pairs of the measured ends."""
     each = logarithms(layers)
     use = (layers.grains >= FEW) & np.isfinite(sum(each.values()))
     weight = (layers.frames * layers.q)[use]
@@ -107,8 +107,8 @@ def terms(layers):
 
 
 def trend_where_alike(mixtures, names):
-    """Slope of B over Phi_L within classes of layers: least squares, weighted by frames times q, with a level of its
-    own for each class. `mixtures` are pairs of Phi_L and layers."""
+    """Slope of B over Phi_L within classes of layers: least squares, weighted by frames times q, with a separate level for
+    each class. `mixtures` are pairs of Phi_L and layers."""
     layers = np.concatenate([layers for _, layers in mixtures]).view(np.recarray)
     phi = np.repeat([phi for phi, _ in mixtures], [len(layers) for _, layers in mixtures])
     known = ~np.isnan(layers.gradient)
@@ -122,13 +122,13 @@ def trend_where_alike(mixtures, names):
 
 
 def both(label, mixtures, slope):
-    """A slope over Phi_L of all mixtures, and of the mixtures from FROM on."""
+    """A slope over Phi_L, for all mixtures and for those with Phi_L >= FROM."""
     parts = {label: mixtures, f"upper_{label}": [pair for pair in mixtures if pair[0] >= FROM]}
     return {name: slope(part) for name, part in parts.items() if len(part) > 1}
 
 
 def mixture(layers):
-    """All numbers of a mixture, from the layers of one run."""
+    """All numbers of one mixture, from the layers of one run."""
     early, late = layers[layers.t < tables.EARLY], layers[layers.t >= tables.LATE]
     found = {**factors(layers), **terms(layers)}
     if len(early) and len(late):
@@ -137,8 +137,9 @@ def mixture(layers):
 
 
 def trends(mixtures, long):
-    """Trends over one seed of each mixture: slopes over Phi_L, of all mixtures and of the mixtures from FROM on; B of each if
-    `beyond` of all together held; slopes where layers are alike, of equal phi_L also in the windows of `long`."""
+    """Trends over mixtures, from one seed of each. Slopes over Phi_L are for all mixtures and for those with Phi_L >= FROM.
+    Numbers: `beyond` of all mixtures together; B of each mixture with this common `beyond`; slopes of all numbers; slopes of B
+    within classes of ALIKE, for equal phi_L also with the longer windows of `long`."""
     parts = [(phi, {**factors(layers), **terms(layers)}) for phi, layers in mixtures]
     found = {"beyond": factors(np.concatenate([layers for _, layers in mixtures]).view(np.recarray))["beyond"]}
     for phi, part in parts:

@@ -1,9 +1,9 @@
-"""Bounds for the error of B that comes from rounded sums."""
+"""Bounds for the error of B from rounded sums."""
 import sys
 
 import numpy as np
 
-import tables  # noqa: F401 (grseg's folder)
+from tables import shared
 import grseg
 
 INSIDE = ("A_SS_yy", "A_Sb_yy", "M_yy")
@@ -13,17 +13,17 @@ AREA_DIGITS = 3
 
 
 def half_unit(values, digits):
-    """Half a unit of the last of so many digits."""
+    """Half a unit of the last digit of numbers with so many significant digits."""
     with np.errstate(divide="ignore"):
         return np.where(values == 0, 0, 0.5 * 10.0 ** (np.floor(np.log10(abs(values))) - digits + 1))
 
 
 def of_tables(paths, heights="4dS:56dS"):
-    """B of all tables together, with its bounds."""
-    tables = [grseg.read_table(path) for path in paths]
+    """B of all tables together, with bounds for its error."""
+    tables = [shared.table(path) for path in paths]
     digits = next((int(table.header["kept"].split()[0]) for table in tables if "kept" in table.header), None)
     if digits is None:
-        sys.exit("rounding: no table says '# kept: N digits'; these are not rounded")
+        sys.exit("rounding: no table has the line '# kept: N digits'; these tables are not rounded")
     points = grseg.Points(tables, heights=heights)
     b = points.fit("size").B
     at = {name: np.concatenate([table[name][points.row[points.table == k]] for k, table in enumerate(tables)])
@@ -41,16 +41,17 @@ def of_tables(paths, heights="4dS:56dS"):
 
 
 def rounding(options):
-    """Bounds for the error of B that comes from rounding the sums of contacts to the digits that tables hold.
+    """Prints bounds for the error of B that comes from rounding the sums of contacts in archived tables.
 
     Every number v of a table with "# kept: N digits" is known to half a unit of its last digit,
-    h = 0.5 x 10^(floor(log10 |v|) - N + 1), areas to one digit more. B (by size, of sigma_yy) of all tables together changes by the
-    sum of derivative x error; printed are
-        B        of all points
-        worst    the sum of |derivative| x h: no rounding can do more (to first order)
-        rms      the root of the sum of (derivative x h)^2/3: standard deviation for errors that are
-                 independent and uniform within h
-    --heights as of grseg-fit (default: 4 to 56 small diameters, as in the document), whose defaults are the further filters.
+    h = 0.5 x 10^(floor(log10 |v|) - N + 1); areas have one digit more. The error of B (by size, of sigma_yy) of all tables
+    together is the sum of derivative x error. Prints
+        B        B of all points
+        worst    sum of |derivative| x h: the largest possible error (to first order)
+        rms      root of the sum of (derivative x h)^2/3: standard deviation for errors that are independent and uniform
+                 within h
+    --heights is the option of grseg-fit (default: 4 to 56 small diameters, as in the document). Other filters are the defaults
+    of grseg-fit.
     """
     for name, value in of_tables(options.tables, heights=options.heights).items():
         print(f"{name}\t{value:.6f}")

@@ -1,4 +1,4 @@
-"""One run of the campaign, in its own folder: its scene, its simulation, its tables and what they cost."""
+"""One run of the campaign, in its folder: scene, simulation, tables and their cost."""
 import fcntl
 import glob
 import itertools
@@ -10,20 +10,19 @@ import subprocess
 import sys
 import time
 
-# Settings by word of a run's name; the first pattern that fits counts.
+# Settings by the words of a run's name; the first matching pattern is used.
 WORDS = [(r"phi(.*)", "phi-large = {}"), (r"seed(.*)", "seed = {}"), (r"step(.*)", "step = {}"), (r"s(\d.*)", "slope = {}"),
          (r"e(\d.*)", "restitution = {}"), (r"ratio(.*)", "size-ratio = {}"), (r"density(.*)", "density-ratio = {}"),
          (r"mu(.*)", "friction = {}"),
          (r"irregular()", "base-height-spread = 0.5dS\nbase-diameter-spread = 0.3\nbase-spacing-spread = 0.2"),
          (r"spaced()", "base-spacing = 1.2dL"), (r"mixed()", "initial = mixed"), (r"above()", "initial = large-above"),
          (r"finer()", "step = 5e-5\ntolerance = 0.01\nmax-sweeps = 5000")]
-# Words that replace what all runs have in common.
+# Words that replace settings which all runs have in common.
 COMMON = {r"cell(.*)": "length", r"depth(.*)": "depth", r"t(\d.*)": "duration", r"(draft|standard|reference)": "accuracy"}
 
 
 def scene(options):
-    """The scene of the run of this name, in which every word between hyphens sets one key. All other keys are as in
-    sim/scenes/chute.ini."""
+    """Prints the scene of a run. Each word between hyphens in the run's name sets one key. All other keys are as in sim/scenes/chute.ini."""
     lines = [f"# {options.name}: of scripts/reproduce; all else is as in sim/scenes/chute.ini."]
     common = {key: getattr(options, key.replace("-", "_")) for key in ("duration", "depth", "length", "accuracy", "frame-interval")}
     for word in options.name.split("-"):
@@ -36,10 +35,11 @@ def scene(options):
     print("\n".join(lines + [f"{key} = {value}" for key, value in common.items()]))
 
 
-def timed(command, log, **how):
-    """Exit code, and "processor U + S s" of the command, whose words are appended to `log`."""
+def timed(command, stderr=None, **how):
+    """Runs the command with its messages in the file `stderr` (None: on standard error); returns its exit code and
+    "processor U + S s" (user, system)."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    code = subprocess.run(command, stderr=log, **how).returncode
+    code = subprocess.run(command, stderr=stderr, **how).returncode
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return code, f"processor {after.ru_utime - before.ru_utime:.3f} + {after.ru_stime - before.ru_stime:.3f} s"
 
@@ -49,8 +49,8 @@ def is_newer(path, other):
 
 
 def simulate(options):
-    """Makes run.h5 from the scene.ini in this folder, with a checkpoint every so many seconds; continues from an existing
-    checkpoint. The simulator's messages are appended to run.log."""
+    """Makes run.h5 from the scene.ini in this folder, with a checkpoint every EVERY seconds. Continues from a checkpoint if
+    there is one. The simulator's messages are appended to run.log."""
     def run(*words):
         with open("run.log", "a") as log:
             code, processor = timed([options.simulator, *words, "--checkpoint", "run.chk", "--checkpoint-every", options.every,
@@ -61,10 +61,10 @@ def simulate(options):
                 print(*[line for line in log if line.startswith("grseg-sim: ")][-1:], end="", file=sys.stderr)
         return code if code >= 0 else 128 - code
 
-    # A simulator that outlived its make may still be running, with the lock: wait for it.
+    # A simulator may still be running after its make was killed; it has the lock, so wait for it.
     lock = open("run.lock", "w")
     fcntl.flock(lock, fcntl.LOCK_EX)
-    signal.signal(signal.SIGINT, lambda *_: None)  # the simulator ends, and says so
+    signal.signal(signal.SIGINT, lambda *_: None)  # the simulator receives the signal, too, and ends with a message
     if is_newer("run.h5", "scene.ini"):
         return
     if is_newer("run.chk", "scene.ini") and os.path.exists("run.h5.part") and os.path.getsize("run.h5.part"):
@@ -84,38 +84,38 @@ def simulate(options):
 
 
 def without_restarts(text):
-    """A table, or any other text, without the lines of its history that name a restart."""
-    from tables import shared  # not above: make calls this module for every run
+    """A table, or any other text, without the history lines of restarts."""
+    from tables import shared  # imported here to save time, since make calls this module for every run
     return shared.changed(text, "(?m)^# history: grseg-sim --restart run.chk .*\n", "")
 
 
 def table(options):
     """Writes the output of the command to FILE, completely or not at all. Exit code 4, a failed check, is a valid result.
 
-    A restarted run is bitwise identical (tests/tools/restart_test.sh), and its restarts are in run.log; they are removed from
-    the history so that the tables are identical, too.
+    A restarted run equals an uninterrupted one bit for bit (tests/tools/restart_test.sh). Restarts are recorded in run.log and
+    removed from the history of the table, so that tables are identical, too.
     """
     begin = time.time()
+    part = f"{options.file}.{os.getpid()}.part"
+    with open(part, "w+") as out:
+        code, processor = timed(options.made_by, stdout=out)
+        if code not in (0, 4):
+            sys.exit(code if code >= 0 else 128 - code)
+        out.seek(0)
+        text = without_restarts(out.read())
+        out.seek(0)
+        out.truncate()
+        out.write(text)
+    os.replace(part, options.file)
     with open("run.log", "a") as log:
-        part = f"{options.file}.{os.getpid()}.part"
-        with open(part, "w+") as out:
-            code, processor = timed(options.made_by, log, stdout=out)
-            if code not in (0, 4):
-                sys.exit(code if code >= 0 else 128 - code)
-            out.seek(0)
-            text = without_restarts(out.read())
-            out.seek(0)
-            out.truncate()
-            out.write(text)
-        os.replace(part, options.file)
         log.write(f"{options.file} made in {time.time() - begin:.3f} s, {processor}\n")
 
 
 def outdated(options):
-    """Prints the tables of the run in this folder that were made by another command than COMMAND, according to the last
-    line of their history. If the run is finished and its trajectory deleted, missing or outdated tables require another
-    simulation: the answer is then "gone" and these tables or, with AGAIN, all tables, because today's program may give
-    another run."""
+    """Prints the names of outdated tables of the run in this folder: tables whose last line of history is not COMMAND.
+
+    If the run is finished and its trajectory deleted, missing or outdated tables require another simulation. Then it prints
+    "gone" and these tables or, with AGAIN, all tables, because the present program may give another run."""
     names, old, missing = [], [], []
     for wanted in options.wanted:
         name, _, command = wanted.partition(": ")
@@ -134,8 +134,8 @@ def outdated(options):
 
 
 def cost(_):
-    """Cost of the run in this folder, from run.log: wall time of its simulation including restarts and of its
-    tables; processor time, without killed processes; the size of its trajectory."""
+    """Prints the cost of the run in this folder, from run.log: wall times of the simulation, including restarts, and of the
+    tables; processor times, without killed processes; size of the trajectory."""
     with open("run.log") as log:
         text = log.read()
     simulation = re.findall(r"(?m)^.* s simulated in (\S+) s", text)[-1:]

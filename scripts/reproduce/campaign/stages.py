@@ -1,21 +1,21 @@
-"""The dependence of B on composition, flux and gradient in a flow that segregates."""
+"""Dependence of B on composition, flux and gradient in a flow that segregates."""
 import math
 
 import numpy as np
 
 import tables
-import grseg
 
 STRESS = ["t0", "t1", "y0", "y1", "frames", "area_S", "area_L", "A_SS_yy", "A_LL_yy", "M_yy", "Msize_yy", "A_Sb_yy", "A_Lb_yy"]
 FLUX = ["t0", "y0", "frames", "q_L", "q_L_error", "dphi_dy"]
-TIMES = ((5, 20), (20, 60), (60, 100), (100, 150), (150, 300), (300, 600))  # s
-BED = 60  # d_S, height of the bed
-BLOCK = 60  # s, of a single run
+TIMES = ((5, 20), (20, 60), (60, 100), (100, 150), (150, 300), (300, 600))  # intervals of time, s
+BED = 60  # height of the bed, d_S
+BLOCK = 60  # length of the blocks of a single run, s
 
 
 def points_of(run, options):
-    """Rows time, y/H, phi_L, psi_L - phi_L, frames, q_L/sqrt(g d_S), d_S dphi_L/dy, variance of the sixth."""
-    sums, fluxes = (grseg.read_table(run.path(name)) for name in ("stress", "segregation"))
+    """Points of a run, a row each: time, y/H, phi_L, psi_L - phi_L, frames, q_L/sqrt(g d_S), d_S dphi_L/dy, and the
+    variance of the number with q_L."""
+    sums, fluxes = (tables.table(run.path(name)) for name in ("stress", "segregation"))
     stress, flux = (np.stack([table[name] for name in names], 1) for table, names in ((sums, STRESS), (fluxes, FLUX)))
     d = sums.number("small_diameter")
     speed = np.sqrt(np.hypot(float(sums.header["gravity_x"]), float(sums.header["gravity_y"])) * d)
@@ -47,7 +47,7 @@ def background(points):
 
 
 def beyond(basis, weight, value):
-    """The part of `value` that `basis` does not explain (weighted least squares)."""
+    """Residual of `value` after weighted least squares on `basis`."""
     root = np.sqrt(weight)[:, None]
     solution = np.linalg.lstsq(basis * root, value * root[:, 0], rcond=None)[0]
     return value - basis @ solution
@@ -58,7 +58,7 @@ NAMES = {5: "j", 6: "k"}
 
 
 def fit(points):
-    """Coefficients by model, and what they explain."""
+    """Numbers by (model, name): coefficients, r2, reliability, j_true and correlation; see stages()."""
     basis, weight = background(points), points[:, 4]
     rest = beyond(basis, weight, points[:, 3])
     found = {}
@@ -81,13 +81,13 @@ def classes(points, edges):
 
 
 def blocks(points, length):
-    """The points of a run in blocks of time."""
+    """Points of a run, split into blocks of `length` s."""
     number = np.floor(points[:, 0] / length + 1e-6)
     return [points[number == n] for n in np.unique(number)]
 
 
 def left_out(value, units):
-    """Error and degrees of freedom of value(units) by the jackknife; not a number where there is one unit."""
+    """Standard error and degrees of freedom of value(units) by the jackknife; the error is nan if there is one unit."""
     n = len(units)
     if n < 2:
         return math.nan, 1
@@ -96,7 +96,8 @@ def left_out(value, units):
 
 
 def level(units, common, edges):
-    """B as mean over these classes of composition and height; of all points where there is none. Not a number where a class is empty."""
+    """Mean of B over the classes `common` of composition and height, or B of all points if `common` is empty. It is nan if a
+    class is empty."""
     points = np.concatenate(units)
     kind = classes(points, edges)
     parts = [points[kind == c] for c in common] or [points]
@@ -104,7 +105,8 @@ def level(units, common, edges):
 
 
 def by_time(starts, window):
-    """B by start and time: as it is, and over the classes of composition and height that all starts have, equally weighted."""
+    """Rows with B by start and time: of all points, and as mean over the classes of composition and height that all starts
+    have, with equal weights."""
     edges = np.quantile(np.concatenate([points for runs in starts.values() for points in runs])[:, 2], [0.2, 0.4, 0.6, 0.8])
     inside = lambda points, time: points[(points[:, 0] - window / 2 >= time[0] - 1e-6) & (points[:, 0] + window / 2 <= time[1] + 1e-6)]
     for time in TIMES:
@@ -127,8 +129,8 @@ def by_time(starts, window):
 
 
 def jackknife(starts):
-    """Every number of `fit`, with its interval: the units of each start are left out one by one, the starts' variances add up, and
-    degrees of freedom are Satterthwaite's. Units are the start's runs, or blocks of its only run."""
+    """Rows with every number of `fit` and its interval. Units are the runs of a start, or blocks of its only run. The units of
+    each start are left out one by one, the variances of the starts are added, and degrees of freedom are Satterthwaite's."""
     units = {start: runs if len(runs) > 1 else blocks(runs[0], BLOCK) for start, runs in starts.items()}
     of = lambda key, start: lambda less: fitted(start, less)[key]
     kept = {}
@@ -147,21 +149,24 @@ def jackknife(starts):
 
 
 def stages(options):
-    """Tests if B in a flow that segregates follows composition and height, the flux, or the gradient of composition.
+    """Tests if B in a flow that segregates depends on composition and height, on the flux, or on the gradient of composition.
 
-    The flows start with large grains below, mixed, and above, so that flux and gradient take both signs at the same composition
-    and height. A point is a layer of 4 d_S inside (4 to 56 d_S) over --window seconds of one run, weighted by its frames. The large grains' share of the stress less
-    their share of the grains, psi_L - phi_L by size, is fitted by least squares as
+    The flows start with large grains below, mixed, and above, so that flux and gradient have both signs at the same composition
+    and height. A point is a layer of 4 d_S inside (4 to 56 d_S) over --window seconds of one run, weighted by its frames. The
+    large grains' share of the stress minus their share of the grains, psi_L - phi_L by size, is fitted by least squares as
 
         psi_L - phi_L = phi_L phi_S P(phi_L, y/H) + j q_L/sqrt(g d_S) + k d_S (d phi_L/dy)
 
-    P, a full quadratic, is B as a function of composition and height; q_L is the flux of large grains, up > 0 (grseg-segregation). Nothing is divided by few grains. 95 % intervals are from the jackknife with Student's t: over the
-    runs of each start; of a start that has one run over blocks of that run, of 60 s for the fit and of up to a tenth of the time for B by time, at least one window. These say how the run differs
-    from itself, not what another seed would give (column over).
+    P, a full quadratic, is B as a function of composition and height. q_L is the flux of large grains, positive upward
+    (grseg-segregation). No number is divided by the contents of a species, which may be small. Intervals (95 %) are from the
+    jackknife with Student's t, over the runs of each start. If a start has one run, they are over blocks of this run: 60 s for
+    the fit, and up to a tenth of the time, but at least one window, for B by time. Such an interval describes differences
+    inside the run, not between seeds (column over).
 
-    Rows: model (+q, +gradient, both), coefficient, value, low, high; r2 is the share of the variance that the model explains beyond P. q_L is measured with an
-    error: reliability is the share of its variance, beyond P, that is not noise; j_true = j/reliability of the model +q. Then B by start and time, as it is and at equal composition and height: sums over
-    classes of phi_L (quintiles of all points) and height (thirds), equally weighted over the classes that all starts have.
+    Rows: model (+q, +gradient, both), coefficient, value, low, high. r2 is the share of the variance beyond P that the model
+    explains. q_L has an error of measurement: reliability is the share of its variance beyond P that is not noise, and j_true =
+    j/reliability for the model +q. Then follows B by start and time, of all points and at equal composition and height: the mean
+    over classes of phi_L (quintiles of all points) and height (thirds) that all starts have, with equal weights.
     """
     starts = {flow: [points_of(run, options) for run in runs] for flow, runs in tables.flows_in(options).items()}
     columns = ["of", "what", "value", "low", "high", "over"]

@@ -1,9 +1,9 @@
-"""The paper's statements, and the range of values in which each statement counts as met.
+"""Statements of Staron & Phillips (2015), and the range of values in which each statement counts as met.
 
-A range is the paper's value +- a tolerance, or one-sided for a claim ("more than 10 times"). It is the room that
-the paper itself leaves: its printed error, its digits, or the definitions that it does not give; `source` names
-it. It is not an error of measurement. Ranges are fixed here, before the runs that are judged by them; verdicts.py
-has the one rule by which a measured number meets a range.
+A range is the paper's value +- a tolerance, or one-sided for a claim ("more than 10 times"). The tolerance comes from the
+paper: its printed error, its digits, or definitions that it does not give; `source` says which. It is not an error of
+measurement. The ranges were fixed before the runs that are judged by them. verdicts.py has the rule by which a measured
+number meets a range.
 """
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Statement:
-    """`value` is nan where the paper claims without a number; `error` is the standard error of the paper's value."""
+    """A statement. `value` is nan if the paper states no number; `error` is the standard error of the paper's value."""
     text: str
     low: float
     high: float
@@ -20,7 +20,7 @@ class Statement:
     error: float = 0
 
     def range_text(self, plain):
-        """The range in words, with `plain` to write numbers."""
+        """The range in words; plain(number) formats a number."""
         if math.isinf(self.high):
             return f"> {plain(self.low)}"
         if math.isinf(self.low):
@@ -29,7 +29,7 @@ class Statement:
 
 
 def number(text, value, tolerance, source, error=None, unit=None):
-    """A printed number, with its printed standard error, or the error of rounding to a last digit worth `unit`."""
+    """Statement of a printed number. Its standard error is `error` or, if None, that of rounding to multiples of `unit`."""
     if error is None:
         error = unit / math.sqrt(12) if unit else 0
     return Statement(text, value - tolerance, value + tolerance, source, value, error)
@@ -43,7 +43,7 @@ def below(text, edge, source):
     return Statement(text, -math.inf, edge, source)
 
 
-FIT_ERROR = 0.003  # of the slope 0.9660; dB/ds = -1 there to 4 %
+FIT_ERROR = 0.003  # printed error of the slope s = 0.9660; also that of B, as dB/ds = -1 to 4 %
 OPEN_B = "open in the paper: fit (0.02), layer of a contact (0.01)"
 OPEN_RULES = "open in the paper: fit, layer of a contact; its values have one or two digits"
 OPEN_P_KAPPA = ("open in the paper: mean velocity, V, e, step, together a factor of 2; its smaller side is taken on "
@@ -83,7 +83,7 @@ P_KAPPA_DECAY = number("14.8 d_L", 14.8, 4.8,
                        "10 to 25: Bagnold's profile is not an exponential; its smaller side is taken on both", unit=0.1)
 KINETIC_PREFACTOR = number("1.4413 ± 0.0022", 1.4413, 0.10, "open in the paper: e, step, base", error=0.0022)
 KINETIC_EXPONENT = number("1.0057", 1.0057, 0.02, "open in the paper: fit", unit=0.0001)
-# d(half the sum of 1 - s and (1 - s)/s)/ds = -0.74 at s = 1.4413.
+# B_kappa = half the sum of 1 - s and (1 - s)/s, and dB_kappa/ds = -0.74 at s = 1.4413.
 B_KAPPA = number("−0.373", -0.373, 0.04, OPEN_B_KAPPA, error=0.74 * 0.0022)
 B_KAPPA_OVER_B = above("\"more than 10 times larger\" (0.373/0.0345 = 10.8)", 10, "the claim")
 KINETIC_OVER_CONTACT = Statement("\"about four orders of magnitude smaller\"", 10 ** -4.5, 10 ** -3.5, "a factor of ten about 1e-4")
@@ -102,6 +102,6 @@ F_DEPTH_ORDER = above("\"significantly larger\"", 1, ORDER)
 
 
 def figure_4(rate):
-    """-B_kappa at the shear rate x = rate sqrt(d_S/g): the paper's line, with the tolerance of B_kappa."""
+    """Statement of -B_kappa at the shear rate x = `rate`, in units of sqrt(g/d_S): the paper's line, with the tolerance of B_kappa."""
     value = 0.310 + 0.205 * rate
     return number("0.310 + 0.205 x", value, 0.04, OPEN_B_KAPPA, unit=0.001)

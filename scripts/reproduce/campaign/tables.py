@@ -1,4 +1,4 @@
-"""The campaign's runs, and results of grseg's programs for them."""
+"""Runs of the campaign, and results of grseg's programs for them."""
 import glob
 import math
 import os
@@ -9,19 +9,20 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 import shared  # noqa: E402
-from shared import mean_and_half_width, parse, read, student, write  # noqa: E402, F401
+from shared import mean_and_half_width, parse, read, student, table, write  # noqa: E402, F401
 
 # Name of a run: phi0.30-s23-seed1, phi0.45-s23-e0.5-seed2. Its tables are NAME/QUANTITY.tsv.
 NAME = re.compile(r"phi(?P<phi>[\d.]+)-s(?P<slope>[\d.]+)(?:-(?P<variant>.+?))?-seed(?P<seed>\d+)$")
 CONTROL = "ratio1"  # the variant with equal grains
-EARLY, LATE = 60, 100  # s: the early stage ends, the late one begins
-INSIDE = (4, 56)  # d_S, the layers that count
+EARLY, LATE = 60, 100  # end of the early stage and begin of the late stage, s
+INSIDE = (4, 56)  # heights between which layers are used ("inside"), d_S
 WHERE = ["--heights", "4dS:56dS", "--quiet"]
 ENDS = ("", "_low", "_high")
 
 
 def welch(*estimates):
-    """Standard error and degrees of freedom of a sum or difference of independent (error, degrees of freedom)."""
+    """Standard error and degrees of freedom of a sum or difference of independent numbers with these pairs (standard error,
+    degrees of freedom)."""
     variance = sum(error**2 for error, _ in estimates)
     if not variance > 0:
         return math.sqrt(variance), 1e9
@@ -29,8 +30,8 @@ def welch(*estimates):
 
 
 def line(x, y, weights=None):
-    """The least-squares line: level at x = 0, slope, their variances over the variance of y at weight 1 (level, both,
-    slope), and the weighted sum of squares that it leaves."""
+    """The least-squares line: level at x = 0; slope; the variance of the level, the covariance of both, and the variance of
+    the slope, over the variance of y at weight 1; and the weighted sum of squared residuals."""
     x, y, w = np.array(x), np.array(y), np.array(weights or [1.0] * len(x))
     total, mx, my = w.sum(), np.average(x, weights=w), np.average(y, weights=w)
     sxx = w @ (x - mx) ** 2
@@ -54,12 +55,12 @@ class Run:
         return os.path.exists(self.path(quantity))
 
     def record(self):
-        """Its parameters by name."""
+        """Parameters of the run by name, from record.tsv."""
         return {row["name"]: row["value"] for row in read(self.path("record"))[1]}
 
 
 def runs_in(folder):
-    """All finished runs, in order of mixture, slope, variant and seed."""
+    """All finished Runs in a folder, in order of mixture, slope, variant and seed."""
     found = []
     for path in glob.glob(os.path.join(glob.escape(folder), "*", "checksums")):
         name = os.path.basename(os.path.dirname(path))
@@ -68,7 +69,7 @@ def runs_in(folder):
             found.append(Run(folder, name, match))
     if not found:
         sys.exit(f"{folder}: no finished run, such as phi0.30-s23-seed1/checksums; "
-                 "give the folder that make reproduce filled")
+                 "name the folder that make reproduce filled")
     return sorted(found, key=lambda run: (run.phi, run.slope, run.variant, run.seed))
 
 
@@ -89,13 +90,12 @@ def flows_in(options, otherwise=lambda run: True):
 
 
 def sizes_of(runs):
-    """The option of grseg-fit with the number of runs of each flow."""
+    """The option --flows of grseg-fit: the number of runs of each flow."""
     return ["--flows", ",".join(str(len(of_flow)) for of_flow in by_flow(runs).values())]
 
 
 def of_bed(run):
-    """The header of grseg-segregation's table, the windows of the whole bed, and the mean shear rate from 10 s on,
-    in units of sqrt(g/d_S)."""
+    """Header of the table of grseg-segregation, its rows of the whole bed, and the mean shear rate from 10 s on in units of sqrt(g/d_S)."""
     header, rows = read(run.path("segregation"))
     bed = [row for row in rows if math.isnan(row["y0"])]
     d, g = float(header["small_diameter"]), math.hypot(float(header["gravity_x"]), float(header["gravity_y"]))
@@ -106,17 +106,17 @@ def of_bed(run):
 
 
 def program(options, name, *words):
-    """The table printed by one of grseg's programs."""
+    """The table that a program of grseg prints, as shared.parse() returns it."""
     return parse(shared.tool(options.bin, name, *words), name)
 
 
 def fits(options, *words):
-    """The numbers of grseg-fit, with the paper's fit: one dictionary per rule and flow."""
+    """Numbers of grseg-fit --fit paper: one dictionary per rule and flow."""
     return shared.by_rule(program(options, "grseg-fit", *words, "--fit", "paper")[1])
 
 
 def fits_if_any(options, label, *words):
-    """The numbers of grseg-fit; none if it fails, and its sentence then goes to standard error."""
+    """Numbers of grseg-fit; if it fails, prints its message on standard error and returns []."""
     try:
         return fits(options, *words)
     except RuntimeError as trouble:

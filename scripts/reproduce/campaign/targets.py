@@ -1,6 +1,7 @@
-"""The paper's statements one by one: what it says, what was measured, and whether that meets it.
+"""The paper's statements one by one, each with our measured number and the verdict.
 
-Statements and their ranges are in statements.py, the rule in verdicts.py; here is which number answers which.
+Statements and their ranges are in statements.py, and the rule for verdicts in verdicts.py. This file says which number is
+compared with which statement.
 """
 import math
 
@@ -12,10 +13,10 @@ from measured import Value, line_fit, plain
 
 
 class Target:
-    """A statement, our number as text, and the pairs (value, statement) that are judged, by the worst of them.
+    """A statement, our number as text, and the pairs (value, statement) whose worst verdict counts.
 
-    `one_of`: the independent statement of the paper of which it is a form, "" if the paper gives no number and makes no claim;
-    `numbers`: names in combined.TARGETS of the numbers that it states."""
+    `one_of`: name of the independent statement of the paper of which this is one form; "" if the paper has neither a number nor
+    a claim. `numbers`: names in combined.TARGETS of the numbers in the statement."""
 
     def __init__(self, name, statement, ours, points, why, one_of=None, numbers=()):
         self.name, self.statement, self.ours, self.points, self.why = name, statement, ours, points, why
@@ -39,12 +40,12 @@ class Target:
 
 
 def allowed(statement):
-    """The range, with the digits that it needs."""
+    """The range of the statement as text, with as many digits as needed."""
     return statement.range_text(lambda x: f"{x:.2g}" if 0 < abs(x) < 0.001 else f"{x:.4g}".replace("-", "−"))
 
 
 def signed(number):
-    """A number of standard errors."""
+    """Text of a difference in standard errors, with its sign."""
     if math.isnan(number):
         return "–"
     text = f"{number:+.1f}" if abs(number) < 10 else f"{number:+.0f}"
@@ -52,19 +53,19 @@ def signed(number):
 
 
 def number(name, statement, value, digits, why, one_of=None, numbers=()):
-    """A target that is one number."""
+    """The Target for one number."""
     return Target(name, statement, value.text(digits), [(value, statement)], why, one_of, numbers)
 
 
 def judged(m, section):
-    """The targets of a section, with what the choices that meet most of the paper's numbers make of them."""
+    """Yields the targets of a section; sets by_likely_choices of those that the choices meeting most of the paper's numbers meet."""
     for target in section(m):
         target.by_likely_choices = bool(target.numbers) and m.likely is not None and all(combined.meets(m.likely, name) for name in target.numbers)
         yield target
 
 
 def independent(targets):
-    """The verdict of each independent statement: the worst of its forms that were judged."""
+    """The verdict on each independent statement: the worst over its judged forms."""
     of = {}
     for target in targets:
         if target.one_of:
@@ -73,7 +74,7 @@ def independent(targets):
 
 
 def contact_stress(m):
-    """Figures 1 and 2 and section III."""
+    """Targets of figures 1 and 2 and of section III."""
     yield from separated(m)
     yield from pressure_profile(m)
     b = m.fit("mixtures", "paper_B")
@@ -96,14 +97,14 @@ def contact_stress(m):
 
 
 def with_and_without_a_row(m, flow):
-    """True if the base traps a row of large grains in some runs and not in others: they make no interval. A whole row has
-    35 grains, runs without one keep up to 4."""
+    """True if the base traps a row of large grains in some runs only; then an interval over runs has no meaning. A whole row
+    has 35 grains; runs without a row have up to 4 in the lowest layer."""
     trapped = m.number(flow, "lowest_large")
     return trapped.has_interval() and trapped.value > 5 and trapped.high > 1.5 * trapped.value
 
 
 def separated(m):
-    """Figure 1: from large grains below to large grains above."""
+    """Targets of figure 1: from large grains below to large grains above."""
     def of_flow(flow, name):
         value = m.number(flow, name)
         return Value(value.value) if name != "mixed" and with_and_without_a_row(m, flow) else value
@@ -117,7 +118,7 @@ def separated(m):
 
 
 def pressure_profile(m):
-    """Figure 2a, for both readings of V."""
+    """Targets of figure 2a, for both interpretations of the volume V."""
     at = lambda name: m.number("phi0.30-s23", name)
     yield number("2a: P(z) falls by, over ρ g, per area of grains", paper.FIGURE_2A, at("P_solid_slope"), 3,
                  f"σ_yy + σ^κ_yy is {at('weight').text(3)} of the weight above", one_of="2a")
@@ -125,7 +126,7 @@ def pressure_profile(m):
 
 
 def sign_of_b(m):
-    """B > 0 in every mixture."""
+    """The target of B > 0 in every mixture."""
     points = [(m.fit(row["flow"]), paper.SIGN) for row in m.mixtures()]
     least = min((value.low for value, _ in points), default=math.nan)
     return Target("2b: B > 0", paper.SIGN, f"{m.range_over_mixtures(3)} by mixture, lowest end of an interval {plain(least, 3)}", points,
@@ -133,7 +134,7 @@ def sign_of_b(m):
 
 
 def mixed_contacts(m):
-    """Figure 2c."""
+    """Targets of figure 2c."""
     at = lambda name: m.number("mixtures", name)
     yield number("2c: largest share of mixed contacts", paper.MIXED_MOST, at("mixed_most"), 3, "neutral 0.500")
     yield number("2c: φ_L where it is largest", paper.MIXED_MOST_AT, at("mixed_most_at"), 2, "", one_of="")
@@ -172,7 +173,7 @@ def stages(m):
 
 
 def kinetic_stress(m):
-    """Figures 3 and 4 and section IV."""
+    """Targets of figures 3 and 4 and of section IV."""
     yield from kinetic_profile(m)
     kinetic = {"quantity": "kinetic"}
     yield number("3b: prefactor of σ^κS/σ^κL", paper.KINETIC_PREFACTOR, m.fit("mixtures", "paper_k", **kinetic), 3,
@@ -191,7 +192,7 @@ def kinetic_stress(m):
 
 
 def kinetic_profile(m):
-    """Figure 3a, for both readings of V; about the profile of the mean velocity."""
+    """Targets of figure 3a, for both interpretations of V, with fluctuations about the profile of the mean velocity."""
     at = lambda name: m.number("phi0.30-s23", name)
     for volume, suffix in (("per area of grains", "_solid"), ("per area with voids", "")):
         yield number(f"3a: P^κ at the base over ρ g d_S, {volume}", paper.P_KAPPA, at(f"K{suffix}_prefactor"), 2,
@@ -201,7 +202,8 @@ def kinetic_profile(m):
 
 
 def shear_rate(m):
-    """Figure 4, the line 0.310 + 0.205 x: each slope's B_kappa against it, by the estimator of the paper's -0.373."""
+    """Targets of figure 4, the line 0.310 + 0.205 x: B_kappa of each slope of the base compared with the line, by the estimator
+    of the paper's -0.373."""
     flows = [row for row in m.plain_flows() if row["phi"] == 0.45 and not math.isnan(row["rate"])]
     flows.sort(key=lambda row: row["rate"])
     kinetic = [(row, -m.fit(row["flow"], "paper_B", quantity="kinetic")) for row in flows]
@@ -222,7 +224,7 @@ def shear_rate(m):
 
 
 def micro_structure(m):
-    """Figures 5 and 6 and section V."""
+    """Targets of figures 5 and 6 and of section V."""
     at = lambda name: m.number("mixtures", name)
     for name, end in (("Π", ""), ("Π^L", "_L"), ("Π^S", "_S")):
         mean, most = paper.FIGURE_5[end]

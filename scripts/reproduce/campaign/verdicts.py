@@ -1,10 +1,10 @@
-"""The one rule by which measured numbers meet a statement of the paper.
+"""The rule by which measured numbers meet a statement of the paper.
 
-A statement is met by our choices if the whole 95 % interval lies in its range, not met if it lies wholly outside,
-and undecided if it crosses an edge or does not exist. A statement that our choices do not meet may be met by the choices that meet
-most of the paper's numbers (combined.py). Several points (a line, "always") are judged by the worst.
-The difference from the paper's value in standard errors is a stricter measure, because it allows no room for choices
-that the paper leaves open.
+A statement is met by our choices if the whole 95 % interval lies in the statement's range. It is not met if the interval lies
+wholly outside, and undecided if the interval crosses an edge or does not exist. If our choices do not meet a statement, the
+choices that meet most of the paper's numbers may meet it (combined.py). Several points (a line, "always") are judged by the
+worst point. The difference from the paper's value in standard errors is a stricter measure, because it has no tolerance for
+choices that the paper does not state.
 """
 import math
 
@@ -25,7 +25,7 @@ def verdict(value, statement):
 
 
 def reference(statement):
-    """The number from which the difference is taken: the paper's value, or the edge of a claim that has only one."""
+    """The number from which the difference is taken: the paper's value, or the edge of a claim with only one edge."""
     if not math.isnan(statement.value):
         return statement.value
     edges = [edge for edge in (statement.low, statement.high) if math.isfinite(edge)]
@@ -33,18 +33,18 @@ def reference(statement):
 
 
 def difference(value, statement):
-    """(ours - paper)/sqrt(s^2 + s_paper^2); nan where there is no number to take it from, or no error."""
+    """(ours - paper)/sqrt(s^2 + s_paper^2); nan if there is no reference() or no error."""
     error = math.hypot(value.error, statement.error)
     return (value.value - reference(statement)) / error if error > 0 else math.nan
 
 
 def margin(value, statement):
-    """Distance of the interval's ends from the edges of the range, the smaller one; negative outside."""
+    """The smaller distance of the interval's ends from the edges of the range; negative outside the range."""
     return min(value.low - statement.low, statement.high - value.high)
 
 
 def worst(points):
-    """The pair (value, statement) that decides on several of them; None if there is none."""
+    """The pair (value, statement) with the worst verdict; None if `points` is empty."""
     rank = lambda point: (FROM_BEST_TO_WORST.index(verdict(*point)),
                           -margin(*point) if point[0].has_interval() else -math.inf)
     return max(points, key=rank, default=None)

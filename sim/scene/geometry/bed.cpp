@@ -20,7 +20,7 @@ std::vector<BoundaryBody> shaken_base(const Scene& scene, const Grains& grains)
 }  // namespace
 
 const Geometry bed_geometry{.name = "bed",
-                            .help = "on its base",
+                            .help = "on a base",
                             .shapes_base = true,
                             .boundaries = base_and_sides,
                             .bodies = shaken_base};

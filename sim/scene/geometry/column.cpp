@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A column between the left wall and a gate, which is gone at t = 0.
+// A column between the left wall and a gate, which is removed at t = 0.
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
@@ -9,17 +9,17 @@ namespace {
 void resolve_column(Scene& scene, const KeyGiven&)
 {
   require(scene.lateral == Scene::Lateral::walls, "lateral",
-          "lateral is periodic: a column stands between walls; set lateral = walls");
+          "lateral is periodic: a column needs walls; set lateral = walls");
   require(scene.column_width >= scene.large_diameter, "column-width",
-          "column-width is below 1 d_L: a large grain does not fit in; choose a wider one");
+          "column-width is below 1 d_L: a large grain does not fit in; choose a wider column");
   require(scene.column_width < scene.length, "column-width",
-          "column-width is not below length: the column needs room to fall into");
+          "column-width is not below length: the column has no room to spread; enlarge length");
 }
 
 Boundaries column_boundaries(const Scene& scene)
 {
   auto all = base_and_sides(scene);
-  all.walls.push_back({{scene.column_width, 0}, {-1, 0}});  // the gate
+  all.walls.push_back({{scene.column_width, 0}, {-1, 0}});  // the gate, the last wall
   return all;
 }
 

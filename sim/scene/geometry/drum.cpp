@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ring of beads that turns.
+// A drum: a rotating ring of beads.
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
@@ -10,7 +10,7 @@
 namespace grseg {
 namespace {
 
-/// The axis, m: y = 0 is the lowest point of the drum.
+/// Position of the axis, m; y = 0 is the lowest point of the drum.
 Vec2 centre_of(const Scene& scene)
 {
   return {scene.length / 2, scene.drum_diameter / 2};
@@ -21,7 +21,7 @@ void resolve_drum(Scene& scene, const KeyGiven&)
   require(scene.lateral == Scene::Lateral::walls, "lateral",
           "lateral is periodic: a drum is closed; set lateral = walls");
   require(scene.drum_diameter >= 4 * scene.large_diameter, "drum-diameter",
-          "drum-diameter is below 4 d_L: large grains have no room to flow; choose a wider one");
+          "drum-diameter is below 4 d_L: large grains have no room to flow; choose a wider drum");
   scene.length = scene.drum_diameter + 2 * scene.large_diameter;
   scene.depth = scene.fill * scene.drum_diameter;
 }
@@ -68,7 +68,7 @@ void describe_drum(const Scene& scene, Parameters& parameters)
 }  // namespace
 
 const Geometry drum_geometry{.name = "drum",
-                             .help = "turning",
+                             .help = "rotating ring of grains",
                              .resolve = resolve_drum,
                              .boundaries = ring_of_beads,
                              .room_at = room_in_drum,

@@ -8,7 +8,7 @@
 namespace grseg {
 namespace {
 
-/// x of the beads beside the outlet, from its edges to the walls, m.
+/// x of the beads on both sides of the outlet, from its edges to the walls, m.
 std::vector<double> row_with_outlet(const Scene& scene)
 {
   const double radius = bead_radius(scene), middle = scene.length / 2;
@@ -20,7 +20,7 @@ std::vector<double> row_with_outlet(const Scene& scene)
   return x;
 }
 
-/// x of the beads in the outlet, m.
+/// x of the beads that close the outlet, m.
 std::vector<double> plug(const Scene& scene)
 {
   const long beads = std::lround(std::ceil(scene.outlet / scene.large_diameter));
@@ -34,11 +34,11 @@ std::vector<double> plug(const Scene& scene)
 void resolve_hopper(Scene& scene, const KeyGiven&)
 {
   require(scene.lateral == Scene::Lateral::walls, "lateral",
-          "lateral is periodic: a hopper stands between walls; set lateral = walls");
+          "lateral is periodic: a hopper needs walls; set lateral = walls");
   require(scene.base == Scene::Base::grains, "base",
-          "base is wall: the outlet of a hopper lies between grains; set base = grains");
+          "base is wall: the outlet of a hopper is a gap in a row of grains; set base = grains");
   require(scene.outlet < scene.length, "outlet",
-          "outlet is not below length: nothing would hold the bed");
+          "outlet is not below length: no base would be left; choose a narrower outlet");
 }
 
 Boundaries hopper_boundaries(const Scene& scene)
@@ -46,7 +46,7 @@ Boundaries hopper_boundaries(const Scene& scene)
   Boundaries all;
   add_bead_base(all, scene, row_with_outlet(scene));
   add_side_walls(all, scene);
-  all.walls.push_back({{0, -1.3 * scene.depth}, {0, 1}});  // catches what has left
+  all.walls.push_back({{0, -1.3 * scene.depth}, {0, 1}});  // stops grains that have left
   for (const double x : plug(scene)) add_bead(all, scene, {x, height_of_base_centres(scene)});
   return all;
 }

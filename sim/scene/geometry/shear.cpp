@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A shear cell: at t = 0 gravity ends, and a plate of beads lies on the grains, presses and shears
-// them.
+// A shear cell: at t = 0 gravity ends, and a plate of beads begins to press and shear the grains.
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
@@ -9,7 +8,7 @@
 namespace grseg {
 namespace {
 
-/// A row of beads that touches the highest grain.
+/// Adds a row of beads that touches the highest grain.
 void add_plate(Packing& packing, const Scene& scene)
 {
   double top = 0;
@@ -20,12 +19,12 @@ void add_plate(Packing& packing, const Scene& scene)
     add_grain(packing, Species::boundary, radius, scene.density, {x, top + radius});
 }
 
-/// Adds the velocities of a steady flow of constant shear rate, or else the impact of the plate
-/// would run through the grains.
+/// Adds the velocities of a steady flow of constant shear rate. Otherwise the start of the plate
+/// would send an impact through the grains.
 void add_shear_flow(Simulation& simulation, const Scene& scene)
 {
   const auto& fixed = simulation.world().grains.fixed;
-  const double height = simulation.position(fixed.size() - 1).y();  // of the plate's centres
+  const double height = simulation.position(fixed.size() - 1).y();  // m, y of the plate
   for (std::size_t g = 0; g < fixed.size(); ++g) {
     if (fixed[g]) continue;
     const double speed = scene.plate_speed * simulation.position(g).y() / height;
@@ -41,8 +40,8 @@ void resolve_shear_cell(Scene& scene, const KeyGiven& given)
   require(scene.base == Scene::Base::grains, "base",
           "base is wall: the plates of a shear cell are rough; set base = grains");
   require(scene.slope_rate == 0, "slope-rate",
-          "slope-rate turns gravity, and a shear cell has none");
-  // The bed then presses on its base about as the plate is going to.
+          "slope-rate turns gravity, and a shear cell has no gravity; leave it out");
+  // With this gravity, the pressure of the bed on its base is about plate-pressure.
   if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
 }
 
@@ -58,7 +57,7 @@ Simulation begin_to_shear(const Simulation& deposited, const Scene& scene)
 std::vector<BoundaryBody> upper_plate(const Scene& scene, const Grains& grains)
 {
   auto plate = body_of_beads(grains);
-  plate.begin += (plate.end - plate.begin) / 2;  // the base has as many beads
+  plate.begin += (plate.end - plate.begin) / 2;  // the first half of the beads is the base
   plate.velocity = {scene.plate_speed, 0};
   plate.mass = scene.plate_mass;
   plate.load = -scene.plate_pressure * scene.length;
@@ -69,7 +68,7 @@ std::vector<BoundaryBody> upper_plate(const Scene& scene, const Grains& grains)
 
 const Geometry shear_geometry{
     .name = "shear",
-    .help = "under a plate, without gravity",
+    .help = "between plates, without gravity",
     .resolve = resolve_shear_cell,
     .boundaries = base_and_sides,
     .release = begin_to_shear,

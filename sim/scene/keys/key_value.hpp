@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-/// The kinds of values that keys have. `member` is a pointer to a member of Scene, or a function
-/// that takes a Scene to one of its parts.
+/// Kinds of values of keys. `member` is a pointer to a member of Scene, or a function that returns
+/// a reference to a part of a Scene.
 namespace grseg::kinds {
 
 double read_number(const std::string& key, const std::string& text);
 long read_whole_number(const std::string& key, const std::string& text);
-/// m, not below 0.
+/// Length in m, not negative.
 double read_length(const std::string& key, const std::string& text, const Scene& scene);
 
 template <class Member>
@@ -39,7 +39,7 @@ KeyValue number(Member member, double low, double high, const char* placeholder 
   return value;
 }
 
-/// In metres. Bounds are written as a user writes lengths: "1e-9m", "4dL".
+/// Length, stored in m. Bounds are written as in a scene file: "1e-9m", "4dL".
 template <class Member>
 KeyValue length(Member member, const char* low, const char* high)
 {
@@ -54,7 +54,7 @@ KeyValue length(Member member, const char* low, const char* high)
   return value;
 }
 
-/// One that a scene may be without is a std::optional.
+/// Whole number; its member of Scene may be a std::optional.
 template <class Member>
 KeyValue whole_number(Member member, long low, long high)
 {
@@ -83,11 +83,11 @@ KeyValue whole_number(Member member, long low, long high)
   return value;
 }
 
-/// One of several words; each stands for a value.
+/// Words that a user may choose from, with their values.
 template <class T>
 using Words = std::vector<std::pair<std::string, T>>;
 
-/// `member` of a Scene, or a function of one that gives a reference to it.
+/// Value that is one of `words`.
 template <class Member, class T>
 KeyValue choice(Member member, const Words<T>& words)
 {
@@ -112,7 +112,7 @@ KeyValue choice(Member member, const Words<T>& words)
   return value;
 }
 
-/// on or off.
+/// Switch whose value is the word on or off.
 template <class Member>
 KeyValue on_or_off(Member member)
 {
@@ -123,7 +123,7 @@ KeyValue on_or_off(Member member)
   return value;
 }
 
-/// A member of type bool whose option stands alone and means on.
+/// Switch whose option has no value on the command line and means on.
 template <class Member>
 KeyValue flag(Member member)
 {

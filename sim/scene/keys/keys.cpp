@@ -25,7 +25,7 @@ std::string geometry_help()
   std::vector<std::string> all;
   for (const auto* geometry : geometries())
     all.push_back(fmt::format("{} ({})", geometry->name, geometry->help));
-  return fmt::format("{}", fmt::join(all, ", "));
+  return fmt::format("boundaries of the flow: {}", fmt::join(all, ", "));
 }
 
 Words<std::string> accuracy_words()
@@ -60,15 +60,15 @@ std::vector<SceneKey> bed_keys()
     {"small-diameter", "5mm", length(&Scene::small_diameter, "1e-9m", "1e6m"), bed, yes,
      "nominal diameter d_S of the small grains"},
     {"size-ratio", "2", number(&Scene::size_ratio, 1, 100), bed, no,
-     "nominal d_L/d_S"},
+     "diameter ratio d_L/d_S of large and small grains (nominal)"},
     {"spread", "0.08", number(&Scene::spread, 0, 0.9), bed, yes,
-     "(d_max - d_min)/d within a species, uniform"},
+     "(d_max - d_min)/d of the diameters of a species, which are uniformly distributed"},
     {"density", "1", number(&Scene::density, 1e-9, 1e12), bed, yes,
-     "density of the grains, kg/m^2; of the small ones where density-ratio is not 1"},
+     "density of small grains and boundary grains, kg/m^2"},
     {"density-ratio", "1", number(&Scene::density_ratio, 1e-3, 1e3), bed, yes,
-     "density of the large grains over that of the small ones"},
+     "density of large grains over density of small grains"},
     {"phi-large", "0.3", number(&Scene::phi_large, 0, 1), bed, yes,
-     "share of the large grains in the area of all grains"},
+     "area fraction of large grains among all mobile grains"},
     {"large-grains", "", whole_number(&Scene::large_grains, 0, most), bed, no,
      "number of large grains, instead of phi-large"},
     {"initial", "large-below", choice(&Scene::initial, Words<Scene::Initial>{
@@ -94,8 +94,8 @@ std::vector<SceneKey> flow_keys()
     {"slope-rate", "0", number(&Scene::slope_rate, -1e9, 1e9), flow, yes,
      "rate at which the slope becomes steeper after t = 0, degrees/s"},
     {"gravity", "9.8", number(&Scene::gravity, 1e-9, 1e9), flow, no,
-     "gravity, m/s^2; in a shear cell it acts during the deposition only, by default so that the bed "
-     "presses on its base about as the plate will"},
+     "gravity, m/s^2. In a shear cell it acts during the deposition only; by default the pressure "
+     "of the bed is then about plate-pressure"},
     {"friction", "0.5", number(&Scene::friction, 0, 1e3), flow, yes,
      "Coulomb's coefficient of friction, for all contacts"},
     {"restitution", "0.25", number(&Scene::restitution, 0, 1), flow, yes,
@@ -103,10 +103,10 @@ std::vector<SceneKey> flow_keys()
     {"contact-law", "", choice(&Scene::law, Words<ContactLaw>{
          {"speculative", ContactLaw::speculative}, {"touch", ContactLaw::touch},
          {"centred", ContactLaw::centred}, {"predictive", ContactLaw::predictive}}), flow, yes,
-     "pairs that act in a step: speculative (pairs about to touch are slowed down short of overlap "
-     "and rebound in the next step), touch (pairs that touch at its middle), centred (at its end) "
-     "or predictive (half a step later) (default: speculative; centred where restitution is above "
-     "0.9)"},
+     "pairs on which contact forces act in a step: speculative (pairs about to touch; they are "
+     "slowed down before they overlap, and rebound in the next step), touch (pairs that touch at "
+     "mid-step), centred (at the end of the step) or predictive (half a step later) (default: "
+     "speculative; centred if restitution is above 0.9)"},
     {"horizon", "0.75", number(&Scene::horizon, 1e-3, 1), flow, yes,
      "number of steps that the speculative law looks ahead"},
     {"rotation", "on", on_or_off(&Scene::rotation), bed, yes,
@@ -124,33 +124,34 @@ std::vector<SceneKey> boundary_keys()
   return {
     {"base", "grains", choice(&Scene::base, Words<Base>{
          {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
-     "bottom: grains (a row of fixed grains, by default large ones that touch) or wall (straight)"},
+     "base under the bed: grains (a row of fixed grains, by default touching large ones) or wall "
+     "(straight)"},
     {"base-diameter", "1dL", length(&Scene::base_diameter, "0.1dS", "10dL"), bed, yes,
      "mean diameter of the grains in a bed's base"},
     {"base-diameter-spread", "0", number(&Scene::base_diameter_spread, 0, 1), bed, yes,
-     "(d_max - d_min)/d of the grains in a bed's base, uniform; their tops stay level"},
+     "(d_max - d_min)/d of the diameters in a bed's base, uniform; tops stay at one height"},
     {"base-height-spread", "0", length(&Scene::base_height_spread, "0", "10dL"), bed, yes,
-     "largest distance by which grains of a bed's base are lowered at random, uniformly from 0 on; "
-     "the highest stays where it was"},
+     "range of the tops of the grains in a bed's base: each is lowered by a random distance from 0 "
+     "to this value"},
     {"base-spacing", "", length(&Scene::base_spacing, "0.1dS", "10dL"), bed, yes,
-     "mean distance along x of the grains' centres in a bed's base, widened until a whole number "
-     "fills the cell; below base-diameter they overlap (default: base-diameter)"},
+     "mean distance along x between centres of grains in a bed's base, enlarged until a whole "
+     "number fills the cell. Below base-diameter the grains overlap (default: base-diameter)"},
     {"base-spacing-spread", "0", number(&Scene::base_spacing_spread, 0, 1), bed, yes,
-     "(max - min)/mean of the distances base-spacing, uniform"},
+     "(max - min)/mean of the distances between centres in a bed's base, uniform"},
     {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
          {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
      "sides of the cell along x"},
     {"origin", "top", choice(&Scene::origin, Words<Origin>{
          {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
-     "place of y = 0: top of the (highest) base grains, or their centre, half a base-diameter below"},
+     "place of y = 0: top of the highest base grain, or half a base-diameter below (centre)"},
     {"drum-diameter", "100dS", length(&Scene::drum_diameter, "1dS", "1e6dL"), bed, no,
-     "diameter of a drum, between its beads; at least 4dL"},
+     "inner diameter of a drum; at least 4dL"},
     {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,
      "rotation rate of a drum, rad/s, counter-clockwise"},
     {"fill", "0.4", number(&Scene::fill, 0.01, 0.5), bed, no,
-     "share of a drum's area under the settled bed"},
+     "fraction of a drum's area that the settled bed covers"},
     {"plate-speed", "1", number(&Scene::plate_speed, -1e6, 1e6), flow, no,
-     "speed of a shear cell's plate, m/s"},
+     "velocity of a shear cell's upper plate along x, m/s"},
     {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
      "pressure of a shear cell's plate on the grains, N/m"},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
@@ -162,7 +163,7 @@ std::vector<SceneKey> boundary_keys()
     {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12m"), flow, no,
      "amplitude of the vertical shaking of a bed's base"},
     {"shake-frequency", "0", number(&Scene::shake_frequency, 0, 1e9), flow, no,
-     "frequency of this shaking, Hz"},
+     "frequency of the vertical shaking of a bed's base, Hz"},
   };
 }
 
@@ -172,41 +173,43 @@ std::vector<SceneKey> run_keys()
   using enum InParameters;
   return {
     {"duration", "150", number(&Scene::duration, 0, 1e12, "SECONDS"), extent, no,
-     "duration of the flow from the tilt at t = 0 on, s"},
+     "duration of the flow after t = 0, s"},
     {"frame-interval", "0.05", number(&Scene::frame_interval, 1e-12, 1e12, "SECONDS"), flow, yes,
      "time from frame to frame, or from burst to burst, s"},
     {"burst", "1", whole_number(&Scene::burst, 1, most), flow, yes,
-     "number of frames at each interval, one per step"},
+     "number of consecutive steps written as frames at each frame-interval"},
     {"keep-deposition", "off", flag(&Scene::keep_deposition), bed, no,
      "write the deposition too, as frames at t < 0"},
     {"seed", "1", whole_number(&Scene::seed, 1, 4294967295), bed, yes,
      "seed of the random numbers"},
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
-     "number of threads, for wide scenes; 0 uses all cores. Results do not depend on it"},
+     "number of threads; 0 uses all cores. Only wide scenes gain. Results do not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
-     "sets step, tolerance, min-sweeps, max-sweeps and precision where they are not given; where the "
-     "masses of small and large grains differ much, up to 16 times the sweeps and a tolerance as "
-     "much smaller"},
+     "sets step, tolerance, min-sweeps, max-sweeps and precision unless they are given. If masses of "
+     "grains differ much: up to 16 times as many sweeps, and a tolerance smaller by the same "
+     "factor"},
     {"step", "", number(&Scene::step, 1e-15, 1e12, "SECONDS"), flow, yes,
      set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
     {"tolerance", "", number(of_solver(&SolverSettings::tolerance), 1e-15, 1e3), flow, yes,
-     set_by_accuracy("tolerance of the solver: largest change of a relative velocity in the last "
-                     "sweep, over the mean relative velocity that forces make")},
+     set_by_accuracy("tolerance of the solver: largest accepted change of a relative velocity in "
+                     "the last sweep, over the mean change of relative velocities by contact "
+                     "forces")},
     {"min-sweeps", "", whole_number(of_solver(&SolverSettings::min_sweeps), 1, most), flow, yes,
-     set_by_accuracy("least number of sweeps per step, unless one changes nothing; with too few a "
-                     "bed is soft")},
+     set_by_accuracy("least number of solver sweeps per step, unless a sweep changes nothing; with "
+                     "too few the bed is soft")},
     {"max-sweeps", "", whole_number(of_solver(&SolverSettings::max_sweeps), 1, most), flow, yes,
-     set_by_accuracy("largest number of sweeps per step")},
+     set_by_accuracy("largest number of solver sweeps per step")},
     {"precision", "", choice(of_solver(&SolverSettings::precision), Words<Precision>{
          {"mixed", Precision::mixed}, {"double", Precision::doubles}}), flow, yes,
-     set_by_accuracy("precision of the sweeps: mixed relaxes contacts in single precision")},
+     set_by_accuracy("precision of the solver; mixed: single precision for sweeps, double for the "
+                     "rest")},
     {"acceleration", "on", on_or_off(of_solver(&SolverSettings::acceleration)), flow, yes,
-     "extrapolation of sweeps (Nesterov)"},
+     "Nesterov extrapolation of solver sweeps"},
     {"compression", "0", whole_number(&Scene::compression, 0, 9), extent, no,
-     "deflate level of the finished file; 0 does not compress"},
+     "deflate (gzip) level of the finished file; 0: no compression"},
     {"store", "float64", choice(&Scene::float32, Words<bool>{
          {"float64", false}, {"float32", true}}), extent, no,
-     "precision of numbers in the file"},
+     "floating-point type of numbers in the file"},
   };
 }
 // clang-format on
@@ -232,8 +235,8 @@ const std::vector<SceneKey>& scene_keys()
 po::options_description scene_options()
 {
   po::options_description options(
-      "Keys of a scene file, and options (the command line wins).\nLengths carry a unit: 5mm, 0.3m, "
-      "60dS, 35dL");
+      "Keys of a scene file, which are also options (options take precedence).\nLengths need a "
+      "unit: 5mm, 0.3m, 60dS, 35dL (diameters of small and of large grains)");
   for (const auto& key : scene_keys()) {
     auto help = key.help;
     if (key.value.is_flag) {

@@ -14,30 +14,29 @@
 
 namespace grseg {
 
-/// How the value of a key is written, and where a Scene holds it.
+/// Value of a key: its text form, and its place in a Scene.
 struct KeyValue {
   std::string kind;                  ///< "length", "number", "whole number", "switch" or "choice"
-  std::string placeholder;           ///< what --help calls the value: "LENGTH"
-  std::string allowed;               ///< the range or the words
-  std::vector<std::string> words{};  ///< of a choice or switch
-  /// Sets the scene's value from what the user wrote; SceneError where the key cannot have it.
+  std::string placeholder;           ///< name of the value in --help, such as "LENGTH"
+  std::string allowed;               ///< range, or list of words, for --help and messages
+  std::vector<std::string> words{};  ///< allowed words of a choice or switch
+  /// Sets the value in the scene from the user's text. Throws SceneError if it is not allowed.
   std::function<void(const std::string& key, const std::string& text, Scene&)> read;
-  /// The scene's value in SI, without a unit; "" where it has none. read() of a length asks for a
-  /// unit: with_unit().
+  /// Text of the value in SI, without unit; "" if it is not set. read() needs the unit of a length:
+  /// see with_unit().
   std::function<std::string(const Scene&)> text;
-  /// The scene's value as a number, 1 for on; of a choice, empty.
+  /// Value as a number, 1 for on; null function for a choice.
   std::function<double(const Scene&)> number;
-  /// True where the option stands alone on the command line and means on.
+  /// True if the option has no value on the command line and means on.
   bool is_flag = false;
 };
 
-/// Part of the scene that a key describes, which decides what a restart may do with it.
+/// Part of the scene that a key describes. It decides whether a restart may change the key.
 enum class KeyRole {
   bed,     ///< the deposited bed: a restart cannot change it
-  flow,    ///< how grains move and which frames are written: a restart that changes it begins a
-           ///< new trajectory
-  extent,  ///< how long the run lasts and how its file is stored: steps stay the same
-  machine  ///< what it runs on: results do not depend on it, and files do not state it
+  flow,    ///< motion of grains, choice of frames: a restart with a change begins a new trajectory
+  extent,  ///< duration of the run, storage of its file: the steps of a run do not depend on it
+  machine  ///< use of the machine: results do not depend on it, and files do not include it
 };
 
 enum class InParameters { no, yes };
@@ -45,37 +44,37 @@ enum class InParameters { no, yes };
 /// A key of scene files, which is also an option of grseg-sim.
 struct SceneKey {
   const char* name;
-  std::string default_text;  ///< the default; "" where it follows from other keys (resolve.cpp)
+  std::string default_text;  ///< the default; "" if it follows from other keys (resolve.cpp)
   KeyValue value;
   KeyRole role;
-  /// Form in which /parameters holds the key under its own name, with _ for -. All keys except
-  /// KeyRole::machine are also in /parameters/scene.
+  /// yes: /parameters of the trajectory has an entry with the name of the key, _ for -. All keys
+  /// except KeyRole::machine are also in the text /parameters/scene.
   InParameters stored;
   std::string help;
 
-  /// The value `text`, made by KeyValue::text, as a scene file states it: a length with its "m".
+  /// `text`, a result of KeyValue::text, as in a scene file: a length gets its "m".
   std::string with_unit(const std::string& text) const;
 };
 
-/// The table of all keys: options, --help, scene files, range checks, /parameters, what a restart
-/// compares and docs/guide/scene-keys.md follow from it. In the order of scene files.
+/// Table of all keys, in the order of scene files. Options, --help, scene files, range checks,
+/// /parameters, comparisons in a restart and docs/guide/scene-keys.md are derived from it.
 const std::vector<SceneKey>& scene_keys();
 
-/// The keys as options for Boost.ProgramOptions.
+/// All keys as options for Boost.ProgramOptions.
 boost::program_options::options_description scene_options();
 
-/// The scene that `values`, parsed with scene_options(), state: reads every key of the table,
-/// checks its range, and sets what follows from other keys where the user gives none (step and
-/// solver by accuracy, the mass of a plate). SceneError names the key that is wrong.
+/// Scene with the values of the keys in `values`, which were parsed with scene_options(). Checks
+/// all ranges, and sets keys without a value if they follow from other keys (step and solver from
+/// accuracy, the mass of a plate). Throws SceneError, which names the wrong key.
 Scene resolve_scene(const boost::program_options::variables_map& values);
 
-/// Values that a word of the key `accuracy` stands for, where the keys below are not given.
+/// Values of other keys that a word of the key `accuracy` sets, unless the user gives them.
 struct Accuracy {
   const char* name;
-  double step;                 // in sqrt(d_S/g)
-  double tolerance;            // of the solver
-  int min_sweeps, max_sweeps;  // per step
-  Precision precision;         // of the sweeps, where no body moves freely
+  double step;                 // largest step, in sqrt(d_S/g)
+  double tolerance;            // SolverSettings::tolerance
+  int min_sweeps, max_sweeps;  // least and largest number per step
+  Precision precision;         // precision of the sweeps, if no body moves freely
 };
 
 constexpr std::array<Accuracy, 3> accuracies{{
@@ -84,37 +83,37 @@ constexpr std::array<Accuracy, 3> accuracies{{
     {"reference", 0.00443, 0.1, 8, 5000, Precision::doubles},
 }};
 
-/// The keys that `accuracy` sets.
+/// Names of the keys that `accuracy` sets.
 constexpr std::array<const char*, 5> keys_of_accuracy{"step", "tolerance", "min-sweeps",
                                                       "max-sweeps", "precision"};
 
-// A scene as text (scene_text.cpp).
+// Conversion of a scene from and to text (scene_text.cpp).
 
-/// The scene as a file that gives the same run: every key except KeyRole::machine, in SI.
+/// Text of a scene file with the same results: every key except KeyRole::machine, in SI.
 std::string to_text(const Scene& scene);
 
-/// Parameters of the scene in /parameters of a trajectory.
+/// Entries of the scene in /parameters of a trajectory.
 Parameters to_parameters(const Scene& scene);
 
-/// `now` with the values of `before` where both are the same up to round-off: 70 d_S of 5 mm are
-/// 350 mm, but for the last bit.
+/// Scene `now`, with each value of `before` that differs by round-off only: 70 d_S of 5 mm and 350
+/// mm differ in the last bit.
 Scene without_round_off(Scene now, const Scene& before);
 
-/// The first key of `role` in which the scenes differ, or "".
+/// First key of `role` in which the scenes differ, or "".
 std::string differing_key(const Scene& a, const Scene& b, KeyRole role);
 
-/// Adds the keys of the file at `path` to `values`; what is there already wins. UsageError where
-/// the file is missing, FormatError with file, line and remedy where a key is unknown.
+/// Adds the keys of the file at `path` to `values`, but does not change values that are already
+/// there. Throws UsageError if the file is missing, FormatError with file, line and remedy if a key
+/// is unknown.
 void read_scene_file(const std::string& path, boost::program_options::variables_map& values);
 
-/// Reads a scene given as text, which messages call `name`. Keys of `text` that `leave_out` names
-/// are passed over.
+/// Adds the keys of a scene given as text, except the keys `leave_out`; messages call it `name`.
 void read_scene_text(const std::string& text, const std::string& name,
                      const std::vector<std::string>& leave_out,
                      boost::program_options::variables_map& values);
 
-/// The scene of the file at `path` where `given`, the command line, does not say otherwise; what is
-/// wrong in the file is a FormatError with its line.
+/// Scene of the file at `path`; values of the command line, `given`, take precedence. Throws
+/// FormatError with the line of an error in the file.
 Scene resolve_scene(const std::string& path, const boost::program_options::variables_map& given);
 
 }  // namespace grseg

@@ -15,32 +15,33 @@ namespace {
 
 namespace po = boost::program_options;
 
-// Restitution and geometry err by O(h); beyond this step a scene is a different one.
+// Largest step: errors of restitution and geometry are O(h), and larger steps change the flow.
 constexpr double largest_step = 0.05;  // in sqrt(d_S/g)
-constexpr double most_steps = 1e15;    // so that a double counts them
-constexpr double largest_turn = 1;     // degree per step: a step feels the gravity of its middle
-// Boundaries move along chords: of N per period of a shaken base, chords differ from the sine's
-// velocity by up to (pi/N)^2/6 of its amplitude, 0.4 % for 20.
+constexpr double most_steps = 1e15;    // so that a double represents their number exactly
+constexpr double largest_turn = 1;     // degrees per step, which has the gravity of its middle
+// Least number of steps in a period of a shaken base. A boundary moves along the chord of each
+// step; with N chords per period its velocity differs from the sine's by up to (pi/N)^2/6 of the
+// amplitude, 0.4 % for 20.
 constexpr double least_chords = 20;
-// d_S: within a step its load may move a plate by so much; half of it may become overlap.
+// Largest distance that its load may move a plate in a step, d_S; half of it may become overlap.
 constexpr double farthest_by_load = 0.1;
-// Largest mass of a large grain, in masses of a small one, for which the presets suffice. Beyond it
-// heavy grains sink into light ones, or light ones lift them (docs/studies/hard-cases.md).
+// Largest mass of a large grain, in masses of a small one, for which the sweeps of `accuracy`
+// suffice. Heavier grains sink into light ones, or are lifted by them (docs/studies/hard-cases.md).
 constexpr double heaviest_large = 16;
-// Largest mass of a plate, in masses of the small grains that find room under it, for which the
-// presets suffice. A bed that sweeps compress in several steps throws a heavier one back
-// (docs/studies/accuracy.md).
+// Largest mass of a plate, in masses of the row of small grains that fits under it, for which the
+// sweeps of `accuracy` suffice. A heavier plate compresses the bed in several steps, and the bed
+// throws it back (docs/studies/accuracy.md).
 constexpr double heaviest_plate = 1;
 constexpr double most_sweeps_factor = 16;
-// Above this restitution pairs rebound in the step in which they meet: the speculative law changes
-// the energy of a gas (docs/studies/accuracy.md).
+// Restitution above which the default law is `centred`: the speculative law would change the energy
+// of a gas (docs/studies/accuracy.md).
 constexpr double most_speculative_restitution = 0.9;
 
 void read_keys(const po::variables_map& values, Scene& scene)
 {
   for (const auto& key : scene_keys()) {
     const auto& given = values[key.name];
-    if (given.empty()) continue;  // it follows from others
+    if (given.empty()) continue;  // it follows from other keys
     key.value.read(key.name,
                    key.value.is_flag ? (given.as<bool>() ? "on" : "off") : given.as<std::string>(),
                    scene);
@@ -61,25 +62,27 @@ void check_shaking(const Scene& scene)
   require(scene.geometry->shapes_base && scene.base == Scene::Base::grains, "shake-amplitude",
           "shake-amplitude moves the grains under a bed; set geometry = bed and base = grains");
   require(scene.shake_frequency > 0, "shake-frequency",
-          "shake-frequency is 0 but shake-amplitude is not; give both");
+          "shake-frequency is 0 but shake-amplitude is not; set both");
 }
 
-/// The step that was given, or the longest one of the accuracy that divides the frame interval.
+/// Sets the step: the given one, or the longest one that `accuracy` allows and that divides the
+/// frame interval.
 void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
 {
   const double natural = std::sqrt(scene.small_diameter / scene.gravity);
   const double frequency = scene.shake_amplitude > 0 ? scene.shake_frequency : 0;
   const double longest =
-      std::min(accuracy.step * natural, 1 / (least_chords * frequency));  // infinite at rest
+      std::min(accuracy.step * natural, 1 / (least_chords * frequency));  // infinite if unshaken
   if (!given("step")) {
     scene.step = scene.frame_interval / std::ceil(scene.frame_interval / longest);
     return;
   }
-  require(least_chords * frequency * scene.step <= 1 + 1e-9, "step",
-          fmt::format("step is {:.6g} s: a period of shake-frequency, {:g} Hz, has {:.3g} of them; "
-                      "choose one of at most {:.4g} s, for {:g} in a period",
-                      scene.step, frequency, 1 / (frequency * scene.step),
-                      1 / (least_chords * frequency), least_chords));
+  require(
+      least_chords * frequency * scene.step <= 1 + 1e-9, "step",
+      fmt::format("step is {:.6g} s: a period of shake-frequency, {:g} Hz, has only {:.3g} steps; "
+                  "choose a step of at most {:.4g} s, for {:g} steps in a period",
+                  scene.step, frequency, 1 / (frequency * scene.step),
+                  1 / (least_chords * frequency), least_chords));
   require_within(scene.step, "step", 0, largest_step * natural);
   const double steps = scene.frame_interval / scene.step;
   require(std::abs(steps - std::round(steps)) <= 1e-6 * steps && steps >= 0.5, "step",
@@ -88,9 +91,8 @@ void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
                       scene.frame_interval, scene.step));
 }
 
-/// Factor by which sweeps must grow, and their tolerance shrink, where grains bear much heavier
-/// ones, or a heavy plate: a sweep gives a heavy body only as much of an impulse as stops a light
-/// one.
+/// Factor that multiplies sweeps and divides the tolerance if grains support much heavier ones, or
+/// a heavy plate: in a sweep, a heavy body receives only an impulse that would stop a light one.
 int more_sweeps(const Scene& scene)
 {
   double contrast = 1;
@@ -119,13 +121,13 @@ void resolve_accuracy(Scene& scene, const KeyGiven& given)
   if (!given("min-sweeps"))
     solver.min_sweeps = std::min(factor * accuracy.min_sweeps, solver.max_sweeps);
   require(solver.min_sweeps <= solver.max_sweeps, "min-sweeps",
-          fmt::format("min-sweeps is {}, above max-sweeps, {}; give both", solver.min_sweeps,
+          fmt::format("min-sweeps is {}, above max-sweeps, {}; set both", solver.min_sweeps,
                       solver.max_sweeps));
   const bool free_body = scene.geometry->has_free_body;
   if (!given("precision")) solver.precision = free_body ? Precision::doubles : accuracy.precision;
   require(!free_body || solver.precision == Precision::doubles, "precision",
-          fmt::format("precision is mixed, but a body that moves freely, as in geometry {}, is "
-                      "solved in double precision; leave it out",
+          fmt::format("precision is mixed, but geometry {} has a body that moves freely and needs "
+                      "double precision; leave it out",
                       scene.geometry->name));
 }
 
@@ -135,7 +137,7 @@ void check_frames(const Scene& scene)
        {std::pair{"duration", scene.duration}, {"frame-interval", scene.frame_interval}})
     require(time / scene.step <= most_steps, key,
             fmt::format("{} is {:.6g} s: that is more than {:.0g} steps of {:.6g} s; choose a "
-                        "shorter one",
+                        "shorter time",
                         key, time, most_steps, scene.step));
   require(scene.steps_in_all() > 0, "duration",
           fmt::format("duration is {:.6g} s, less than a step of {:.6g} s: the run would have no "
@@ -144,8 +146,8 @@ void check_frames(const Scene& scene)
   require_within(static_cast<double>(scene.burst), "burst", 1,
                  static_cast<double>(scene.steps_per_frame()));
   require(!scene.keep_deposition || scene.geometry->keeps_grains, "keep-deposition",
-          fmt::format("keep-deposition: in geometry {} other grains are there from t = 0 on, and "
-                      "one file cannot hold both; leave it out",
+          fmt::format("keep-deposition: geometry {} adds or removes grains at t = 0, and frames "
+                      "before and after cannot be in one file; leave it out",
                       scene.geometry->name));
 }
 
@@ -156,7 +158,7 @@ void check_plate(const Scene& scene)
   const double way = load / scene.plate_mass * scene.step * scene.step / scene.small_diameter;
   require(way <= farthest_by_load, "plate-mass",
           fmt::format("plate-mass is {:.3g} kg: plate-pressure would move the plate by {:.2g} d_S "
-                      "within a step, above {:g}; choose at least {:.2g} kg, or a smaller step",
+                      "in a step, more than {:g}; choose at least {:.2g} kg, or a smaller step",
                       scene.plate_mass, way, farthest_by_load,
                       scene.plate_mass * way / farthest_by_load));
 }
@@ -166,7 +168,7 @@ void check_turning(const Scene& scene)
   const double turn = std::abs(scene.slope_rate) * scene.step;
   require(turn <= largest_turn, "slope-rate",
           fmt::format("slope-rate turns gravity by {:.3g} degrees per step, above {}; choose a "
-                      "smaller one or a smaller step",
+                      "smaller slope-rate or step",
                       turn, largest_turn));
 }
 

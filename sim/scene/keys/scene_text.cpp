@@ -29,7 +29,7 @@ std::string text_of(const std::string& path)
   return text;
 }
 
-/// "file:12" of the line that sets `key`, or "file" where none does.
+/// Place of the line that sets `key`, such as "file:12"; "file" if no line does.
 std::string place_of(const std::string& path, const std::string& key)
 {
   std::istringstream file(text_of(path));
@@ -44,7 +44,7 @@ std::string place_of(const std::string& path, const std::string& key)
   return path;
 }
 
-/// "file:12" of the first line that is neither 'key = value' nor a comment, or "file".
+/// Place of the first line that is neither 'key = value' nor a comment, such as "file:12".
 std::string place_of_bad_line(const std::string& text, const std::string& name)
 {
   std::istringstream lines(text);
@@ -67,14 +67,14 @@ std::string without_dashes(std::string option)
 
 using ParsedKeys = po::parsed_options;
 
-/// Stores the keys that `text` sets, after `change` had a look at them. `place` gives the line of a
-/// key.
+/// Stores the keys that `text` sets in `values`, after a call of `change`, which may edit them.
+/// `place` returns the place of a key for messages.
 void read_keys(const std::string& text, const std::string& name,
                const std::function<std::string(const std::string&)>& place,
                const std::function<void(ParsedKeys&)>& change, po::variables_map& values)
 {
   if (const auto word = placeholder_in(text); !word.empty())
-    throw FormatError(fmt::format("{}: no key and no value may hold {}", name, word));
+    throw FormatError(fmt::format("{}: no key and no value may contain {}", name, word));
   const auto keys = scene_options();
   std::istringstream in(text);
   try {
@@ -100,7 +100,7 @@ void read_keys(const std::string& text, const std::string& name,
   }
 }
 
-/// Gives the lengths of a text in SI their unit.
+/// Appends the unit m to all lengths.
 void add_units(ParsedKeys& parsed)
 {
   for (auto& option : parsed.options)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Momentum balances of spheres, of two species and of more.
+// Momentum balances of spheres, for two and for more species.
 #include "analysis/balance/balance_table.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
@@ -27,7 +27,7 @@ Species numbered(int k)
   return static_cast<Species>(k);
 }
 
-/// Gives every grain the force that its weight and its contacts make.
+/// Sets the force on every grain to its weight plus its contact forces.
 Spheres accelerated(Spheres scene, const Vec3& gravity)
 {
   auto& force = scene.frame.force;
@@ -41,8 +41,7 @@ Spheres accelerated(Spheres scene, const Vec3& gravity)
   return scene;
 }
 
-/// Spheres of `species` species and the base, joined by contacts of random force that push
-/// more than they pull.
+/// Spheres of `species` species and a base, joined by contacts with random, mostly repulsive forces.
 Spheres random_spheres(unsigned seed, int species = 2)
 {
   std::mt19937 random(seed);
@@ -76,7 +75,7 @@ MomentumBalance<3> balance_of_spheres(const std::vector<Spheres>& frames, std::s
   return balance;
 }
 
-/// Largest residual of a species in a layer over the largest term there.
+/// Largest residual of a species in a layer, divided by the largest term in this layer.
 double worst_residual(const MomentumBalance<3>& balance, Species species)
 {
   double worst = 0;
@@ -109,7 +108,7 @@ TEST(BalanceInSpace, ClosesForEachSpeciesUnderAnyForces)
     }
 }
 
-// Forces and weights whose axes y and z are exchanged do not belong to these motions.
+// Forces and weights with the axes y and z exchanged do not fit the motions.
 TEST(BalanceInSpace, AWrongAxisIsLeftAsResidual)
 {
   const auto scene = random_spheres(2);
@@ -128,8 +127,8 @@ TEST(BalanceInSpace, AWrongAxisIsLeftAsResidual)
   EXPECT_GT(worst_residual(balance_of_spheres({flat}), Species::large), 0.01);
 }
 
-// Layers are along y: moving everything along x and z changes nothing, turning the flow about y
-// turns all vectors.
+// Layers are stacked along y: shifting everything along x and z changes nothing, and turning the
+// flow about y turns all vectors.
 TEST(BalanceInSpace, TurningTheFlowAboutTheNormalTurnsItsVectors)
 {
   const auto scene = random_spheres(3);
@@ -157,13 +156,13 @@ TEST(BalanceInSpace, TurningTheFlowAboutTheNormalTurnsItsVectors)
     }
 }
 
-/// Part of a Gaussian of width 0.2 at height y that lies above an edge.
+/// Part of a Gaussian of width 0.2 centred at height y that lies above an edge.
 double above(double edge, double y)
 {
   return std::erfc((edge - y) / 0.2 / std::numbers::sqrt2) / 2;
 }
 
-// Two spheres that push on each other across the edge y = 1, the large one above.
+// Two spheres push each other across the edge y = 1; the large one is above.
 TEST(BalanceInSpace, TheTermsOfAPairAreThoseWorkedOutByHand)
 {
   Spheres scene;
@@ -189,7 +188,7 @@ TEST(BalanceInSpace, TheTermsOfAPairAreThoseWorkedOutByHand)
 }
 
 // Spheres of radius 1/2 on a fixed one, species in turn: the mean stress of a layer is the weight
-// above its middle over Lx Lz.
+// above its middle divided by Lx Lz.
 TEST(BalanceInSpace, AColumnOfThreeSpeciesCarriesItsWeight)
 {
   constexpr int count = 6;
@@ -263,7 +262,7 @@ TEST(BalanceInSpace, OtherSpeciesThanTwoStandUnderTheirNamesWithoutDrivingForces
   EXPECT_TRUE(summary.sentence().starts_with("the balances close to ")) << summary.sentence();
 }
 
-// Two of three species taken together: what they do to each other is a stress then.
+// Two of three species are treated as one: the forces between them then are a stress.
 TEST(BalanceInSpace, SpeciesTakenTogetherHaveTheSumOfTheirBalances)
 {
   const auto three = random_spheres(6, 3);

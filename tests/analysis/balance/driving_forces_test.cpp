@@ -18,8 +18,8 @@ const Vec2 gravity(0, -9);
 const Layers unit_layers(1, 10);
 const Kernel narrow(KernelShape::lucy, 0.3);
 
-/// Two columns of discs of radius 1/2 side by side on the base, one of large grains by name and one
-/// of small. Something presses on the large column with `load` times the weight of a grain.
+/// Two columns of discs of radius 1/2 side by side on the base, one named large and one named
+/// small. A force of `load` times a grain's weight presses on the large column.
 Packing columns(int count, double load)
 {
   const double weight = 9 * pi / 4;
@@ -33,13 +33,13 @@ Packing columns(int count, double load)
       scene.contact(base + n + 1, base + n, {0, above * weight});
     }
   }
-  // From above: a wall whose contact point lies at the top of the large column.
+  // The load comes from a wall whose contact point is at the top of the large column.
   scene.wall_contact(count, 1, {0, -load * weight}, {0, -0.5});
   scene.frame.force.assign(scene.grains.size(), {0, 0});
   return scene;
 }
 
-/// A contact that is not balanced by others: it moves both grains.
+/// Adds a contact whose force is not balanced and therefore moves both grains.
 void push_apart(Packing& scene, std::int32_t i, std::int32_t j, const Vec2& force)
 {
   scene.contact(i, j, force);
@@ -54,7 +54,7 @@ MomentumBalance<2> balance_of(const std::vector<Packing>& frames, const Kernel& 
   return balance;
 }
 
-/// Two frames of the same, a second apart.
+/// Balance of two equal frames that are one second apart.
 MomentumBalance<2> balance_of(const Packing& scene)
 {
   Packing later = scene;
@@ -81,13 +81,14 @@ TEST(DrivingForces, ColumnsOfEqualWeightPushNeitherWay)
   }
 }
 
-// In layer n each column has the weight 10 - n - 1/2 above its middle, the large one the load too:
-// psi = (w + p)/(2 w + p). The mixture's stress falls by its weight per height, 2 (9 pi/4)/V.
+// In layer n the weight above the middle of each column is 10 - n - 1/2; the large column also
+// carries the load: psi = (w + p)/(2 w + p). The stress of the mixture decreases by its weight per
+// height, 2 (9 pi/4)/V.
 TEST(DrivingForces, ASpeciesThatBearsMoreThanItsShareIsPushedUpwards)
 {
   constexpr double load = 3;
   const auto balance = balance_of(columns(10, load));
-  for (std::size_t n = 0; n < 9; ++n) {  // in the last one the load is not a stress from above
+  for (std::size_t n = 0; n < 9; ++n) {  // in the topmost layer the load is not a stress from above
     const auto of = driving_forces(balance, n);
     const double above = 9.5 - static_cast<double>(n);
     const double psi = (above + load) / (2 * above + load);
@@ -97,13 +98,13 @@ TEST(DrivingForces, ASpeciesThatBearsMoreThanItsShareIsPushedUpwards)
     EXPECT_NEAR(of.push, (psi - 0.5) * weight, 1e-12);
     EXPECT_NEAR(of.drag, -of.push, 1e-12);  // nothing moves
     EXPECT_NEAR(of.scatter, 0, 1e-12);
-    // Columns that do not touch have no interaction to drag with: the spread makes up for it.
+    // Columns that do not touch have no interaction, hence no drag: the spread compensates the push.
     EXPECT_NEAR(of.spread, of.push, 1e-12);
   }
 }
 
-// Large grains at rest among small ones that come through the bottom of the layer: psi_K = 0, and
-// what flows in through the edge, m v_y^2 psi(0) each, is -K'.
+// Large grains are at rest among small ones that enter through the bottom of the layer: psi_K = 0,
+// and the momentum m v_y^2 psi(0) that each brings through the edge is -K'.
 TEST(DrivingForces, ASpeciesThatFluctuatesLessIsPushedTowardsTheHotSide)
 {
   constexpr double w = 0.2, speed = 0.5;
@@ -120,7 +121,7 @@ TEST(DrivingForces, ASpeciesThatFluctuatesLessIsPushedTowardsTheHotSide)
   EXPECT_EQ(of.psi_kinetic, 0);
   EXPECT_NEAR(of.b_kinetic, -1 / (1 - of.phi), 1e-13);
   EXPECT_NEAR(of.push_kinetic, -of.phi * in, 1e-12);
-  EXPECT_TRUE(std::isnan(of.psi));  // no contact stress to share
+  EXPECT_TRUE(std::isnan(of.psi));  // there is no contact stress to share
   EXPECT_EQ(of.push, 0);
 }
 
@@ -149,9 +150,9 @@ TEST(DrivingForces, TheInteractionIsSpreadDragAndScatter)
   }
 }
 
-// The large column is pushed up as above. It is seen to gain a in two seconds, and the small one to
-// lose b: half of the difference of what they gain is beyond the mixture, and the rest of the push
-// is held back. No grain reaches an edge of its layer, so that no momentum flows through it.
+// The large column is pushed up as above. Within two seconds it gains the velocity a, and the small column
+// loses b. Half of the difference of these accelerations is relative to the mixture; drag holds back the
+// rest of the push. No grain reaches an edge of its layer, so no momentum flows through edges.
 TEST(DrivingForces, WhatThePushDoesNotAccelerateIsDrag)
 {
   constexpr double load = 3, time = 2, a = 0.4, b = 0.1;
@@ -162,20 +163,20 @@ TEST(DrivingForces, WhatThePushDoesNotAccelerateIsDrag)
     if (moving.grains.fixed[g] == 0)
       moving.frame.velocity[g].y() = moving.grains.species[g] == Species::large ? a : -b;
   const auto balance = balance_of({at_rest, moving});
-  const double density = pi / 4 / unit_layers.volume(0);  // of each species
+  const double density = pi / 4 / unit_layers.volume(0);  // density of each species
   for (std::size_t n = 0; n < 9; ++n) {
     const auto of = driving_forces(balance, n);
     const double above = 9.5 - static_cast<double>(n);
     const double push = ((above + load) / (2 * above + load) - 0.5) * 2 * 9 * density;
     const double drag = density * (a + b) / (2 * time) - push;
-    const double drift = density * (a + b) / 4;  // mean of both frames
+    const double drift = density * (a + b) / 4;  // mean over both frames
     EXPECT_NEAR(of.push, push, 1e-12);
     EXPECT_NEAR(of.push_kinetic, 0, 1e-15);
     EXPECT_NEAR(of.drag, drag, 1e-12);
     EXPECT_NEAR(of.drift, drift, 1e-14);
     EXPECT_NEAR(of.drag_rate(), -drag / drift, 1e-10);
     EXPECT_NEAR(of.scatter, -density * (a + b) / (2 * time),
-                1e-12);  // forces balance in both frames
+                1e-12);  // forces are in balance in both frames
   }
 }
 
@@ -204,7 +205,7 @@ TEST(BalanceTable, ColumnsAndNumbersAgree)
   EXPECT_EQ(cell(balance, 2, "push"), driving_forces(balance, 2).push);
 }
 
-// Two grains of one mass that part: mean velocity (2, 0), fluctuations (0.3, 0.4) and opposite.
+// Two grains of equal mass move apart: mean velocity (2, 0), fluctuations (0.3, 0.4) and the opposite.
 TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
 {
   Packing scene;
@@ -220,7 +221,7 @@ TEST(BalanceTable, KineticStressCountsFromTheMeanOfBothSpecies)
   }
 }
 
-// Layers 2 to 7 are two diameters away from base and surface.
+// Layers 2 to 7 are at least two diameters away from base and surface.
 TEST(BalanceSummary, SaysWhichWayLargeGrainsArePushedInUnitsOfTheirWeight)
 {
   BalanceSummary<2> summary(unit_layers, 1);
@@ -254,7 +255,7 @@ TEST(BalanceSummary, ReportsTheLargestResidualOverItsLargestTerm)
 {
   auto scene = columns(10, 0);
   push_apart(scene, 4, 15, {-9 * pi / 8, 0});
-  scene.frame.force[4].y() += 9 * pi / 4 * 0.01;  // at the middle of layer 3, where 1 is its weight
+  scene.frame.force[4].y() += 9 * pi / 4 * 0.01;  // middle of layer 3, weight 1 there
   BalanceSummary<2> summary(unit_layers, 1);
   summary.add(balance_of(scene));
   EXPECT_EQ(summary.sentence(), "the balances close to 1.0e-02 of the largest term of each");

@@ -8,7 +8,7 @@
 namespace grseg {
 namespace {
 
-// 1, 2 and 3: variance 1, so that the error of the mean is 1/sqrt(3).
+// Values 1, 2 and 3 have the variance 1, so the standard error of their mean is 1/sqrt(3).
 TEST(MeanOfWindows, HasTheStandardErrorOfIndependentWindows)
 {
   const auto [mean, error] = mean_of_windows({1, 2, 3});

@@ -19,7 +19,7 @@ const Vec2 gravity(3, -9), weightless(0, 0);
 const Layers unit_layers(1, 10);
 const Kernel gauss(KernelShape::gauss, 0.2);
 
-/// Gives every grain the force that its weight and its contacts make.
+/// Sets the force on every grain to its weight plus its contact forces.
 Packing moved_by(Packing scene, const Vec2& g)
 {
   auto& force = scene.frame.force;
@@ -33,7 +33,7 @@ Packing moved_by(Packing scene, const Vec2& g)
   return scene;
 }
 
-/// Grains of both species and the base, joined by contacts of random force.
+/// Grains of both species and a base, joined by contacts with random forces.
 Packing random_bed(unsigned seed)
 {
   std::mt19937 random(seed);
@@ -70,7 +70,7 @@ double largest_residual(const MomentumBalance<2>& balance)
   return most;
 }
 
-/// Part of a Gaussian of width 0.2 at height y that lies below an edge.
+/// Part of a Gaussian of width 0.2 centred at height y that lies below an edge.
 double below(double edge, double y)
 {
   return std::erfc((y - edge) / 0.2 / std::numbers::sqrt2) / 2;
@@ -100,7 +100,7 @@ TEST(MomentumBalance, AForceWithoutAContactIsLeftAsResidualWhereItActs)
   EXPECT_LT((balance.mean(1, species).residual() - expected).norm(), 1e-12);
 }
 
-// Two grains that push on each other across the edge y = 1 of two layers, the large one above.
+// Two grains push each other across the edge y = 1 of two layers; the large one is above.
 TEST(MomentumBalance, TheTermsOfAPairAreThoseWorkedOutByHand)
 {
   Packing scene;
@@ -111,7 +111,7 @@ TEST(MomentumBalance, TheTermsOfAPairAreThoseWorkedOutByHand)
   const auto balance = balance_of({moved_by(scene, weightless)}, weightless);
   const double volume = unit_layers.volume(0);
   const double at_large = 1 - below(1, 1.15), at_small = 1 - below(1, 0.85);
-  const double at_contact = 1 - below(1, 0.95);  // in the upper layer
+  const double at_contact = 1 - below(1, 0.95);  // share of the contact point in the upper layer
 
   const auto upper = balance.mean(1, Species::large), lower = balance.mean(1, Species::small);
   EXPECT_LT((upper.interaction - force * at_contact / volume).norm(), 1e-14);
@@ -120,15 +120,15 @@ TEST(MomentumBalance, TheTermsOfAPairAreThoseWorkedOutByHand)
   EXPECT_LT((lower.contact + force * (at_small - at_contact) / volume).norm(), 1e-14);
   EXPECT_LT((upper.rate - force * at_large / volume).norm(), 1e-13);
   EXPECT_EQ(upper.base, Vec2(0, 0));
-  // All of force (x) arm, cut at the contact point, over both layers.
+  // Sum over both layers of force (x) arm, cut at the contact point.
   const Tensor2 stress = upper.contact_stress + balance.mean(0, Species::large).contact_stress;
   EXPECT_TRUE(same(volume * stress, force * Vec2(0, 0.2).transpose()));
   const Tensor2 other = lower.contact_stress + balance.mean(0, Species::small).contact_stress;
   EXPECT_TRUE(same(volume * other, force * Vec2(0, 0.1).transpose()));
 }
 
-// Into a layer flows the stress at its bottom, out of it that at its top: f (x) (r_i - c) spread
-// along the line from r_i to c.
+// The stress at the bottom of a layer flows in, the stress at its top flows out: f (x) (r_i - c),
+// spread along the line from r_i to c.
 TEST(MomentumBalance, TheContactTermIsTheDivergenceOfTheContactStress)
 {
   const auto scene = random_bed(2);
@@ -156,9 +156,8 @@ TEST(MomentumBalance, TheContactTermIsTheDivergenceOfTheContactStress)
   }
 }
 
-// Discs of radius 1/2 on a fixed one, every other one large by name. Layers reach from contact to
-// contact; with a kernel narrower than a radius the mean stress of a layer is the weight above its
-// middle.
+// Discs of radius 1/2 on a fixed one, named large and small in turn. Layers extend from contact to contact.
+// With a kernel narrower than a radius, the mean stress of a layer is the weight above its middle.
 TEST(MomentumBalance, AColumnCarriesItsWeight)
 {
   constexpr int count = 6;
@@ -186,7 +185,8 @@ TEST(MomentumBalance, AColumnCarriesItsWeight)
   }
 }
 
-// A Heaviside kernel of half-width w across an edge passes v_y h/(2w) of the grain through it.
+// With a Heaviside kernel of half-width w, the part v_y h/(2w) of the grain passes through an edge
+// in one step.
 TEST(MomentumBalance, AFallingGrainCarriesItsMomentumThroughAnEdge)
 {
   Packing scene;
@@ -206,7 +206,7 @@ TEST(MomentumBalance, AFallingGrainCarriesItsMomentumThroughAnEdge)
   EXPECT_NEAR(here.momentum_flux(0, 1), -8 * 0.625 * mass / volume, 1e-14);
 }
 
-// Frames of consecutive steps: grains fly straight between their kicks.
+// Frames of consecutive steps: grains fly straight between the impulses of two steps.
 TEST(MomentumBalance, RatesOfConsecutiveStepsAddUpToTheChange)
 {
   std::mt19937 random(5);
@@ -286,7 +286,7 @@ TEST(MomentumBalance, PartsMergeIntoTheWhole)
   std::vector<Packing> frames;
   for (unsigned k = 0; k < 5; ++k) frames.push_back(random_bed(10 + k));
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].frame.time = static_cast<double>(k);
-  frames[1].frame.position[30].y() = 6.5;  // one frame is higher than the others
+  frames[1].frame.position[30].y() = 6.5;  // the bed of one frame is higher than that of the others
   const auto whole = balance_of(frames);
   auto parts = balance_of({});
   parts.merge(balance_of({frames[0], frames[1]}));

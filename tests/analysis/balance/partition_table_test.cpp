@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table and the summary of the balance under several rules.
+// Table and summary of the balance under several rules.
 #include "analysis/balance/balance_table.hpp"
 #include "analysis/balance/driving_forces.hpp"
 #include "tests/analysis/balance/random_balance.hpp"
@@ -62,7 +62,7 @@ TEST(PartitionTable, OfThreeSpeciesOfSpheresThereAreTheTermsOfEach)
             contacts.contact_force(1, Species::small).z());
 }
 
-// A momentum density: kg m/s over m^2 or m^3.
+// Momentum density: kg m/s per m^2 or m^3.
 TEST(PartitionTable, TheDriftHasTheUnitOfAMomentumDensity)
 {
   const auto has = [](const auto& balance, const std::string& name) {
@@ -73,8 +73,8 @@ TEST(PartitionTable, TheDriftHasTheUnitOfAMomentumDensity)
   EXPECT_TRUE(has(momentum_of<3>({random_contacts<3>(13, 2)}), "drift[kg/(m^2 s)]"));
 }
 
-// A ratio of sums a/b over n windows of which each adds a_k - p* b_k: variance of that over n, over the
-// mean of b.
+// p* is a ratio of sums a/b over n windows. Each window adds a_k - p* b_k to its error: the variance of
+// these numbers over n, divided by the mean of b.
 TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
 {
   const auto layers = thin_layers<2>();
@@ -109,7 +109,8 @@ TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
               1e-12);
 }
 
-// One window has no standard error: numbers stand alone, and the two of several beside theirs.
+// One window has no standard error: numbers are printed alone; for several windows the error is
+// printed, too.
 TEST(PartitionSummary, OfOneWindowHasNoErrors)
 {
   BalanceSummary<2> summary(thin_layers<2>(), 0.01, all_rules);

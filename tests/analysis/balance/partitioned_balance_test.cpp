@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a partition rule changes of the forces on a species, and what it cannot change.
+// Effects of a partition rule on the forces on a species, and quantities that no rule changes.
 #include "analysis/balance/driving_forces.hpp"
 #include "analysis/balance/momentum_balance.hpp"
 #include "tests/analysis/balance/random_balance.hpp"
@@ -16,7 +16,7 @@
 namespace grseg {
 namespace {
 
-/// The larger grain's share of a contact by the words of the rule, worked out once more.
+/// Larger grain's share of a contact under a rule, computed independently.
 double share_by_words(const std::string& rule, double r_large, double r_small, double gap)
 {
   if (rule == "size") return r_large / (r_large + r_small);
@@ -26,7 +26,7 @@ double share_by_words(const std::string& rule, double r_large, double r_small, d
   return std::stod(rule.substr(rule.find(':') + 1));
 }
 
-/// Part of a Gaussian at height y that lies above an edge.
+/// Part of a Gaussian centred at height y that lies above an edge.
 double above_edge(double edge, double y)
 {
   return std::erfc((edge - y) / kernel_width / std::numbers::sqrt2) / 2;
@@ -56,7 +56,7 @@ void expect_n_of_stored_forces(int species)
   }
 }
 
-// N = -div sigma + beta + base is what the stored forces of the grains say without their weight.
+// N = -div sigma + beta + base equals the stored forces on the grains minus their weight.
 TEST(PartitionGauge, UnderEveryRuleTheContactForceOnASpeciesIsThatOfTheForcesOnItsGrains)
 {
   expect_n_of_stored_forces<2>(2);
@@ -65,7 +65,7 @@ TEST(PartitionGauge, UnderEveryRuleTheContactForceOnASpeciesIsThatOfTheForcesOnI
   expect_n_of_stored_forces<3>(4);
 }
 
-/// What the stress that is cut by `rule` carries upward through height y, times the area.
+/// Force that the stress, cut by `rule`, carries upward through height y: stress times area.
 template <int D>
 Vector<D> flow(const PackingOf<D>& scene, double y, Species species, const std::string& rule)
 {
@@ -110,15 +110,15 @@ void expect_divergence()
     }
 }
 
-// The line integrals of the stress at the layer's edges know nothing of where forces act.
+// The line integrals of the stress at the layer's edges do not depend on where forces act.
 TEST(PartitionGauge, UnderEveryRuleTheContactTermIsTheDivergenceOfThatRulesStress)
 {
   expect_divergence<2>();
   expect_divergence<3>();
 }
 
-// A large grain above a small one that it touches: centres at 1.15 and 0.85, in contact at 0.95. Halves
-// cut at 1, the edge of the layers.
+// A large grain above a small one that it touches: centres at 1.15 and 0.85, contact at 0.95. The rule
+// half cuts at 1, which is the edge of the layers.
 TEST(PartitionGauge, OfTwoGrainsAtDifferentHeightsHalfAndSizePushAsWorkedOutByHand)
 {
   Packing scene;
@@ -141,7 +141,7 @@ TEST(PartitionGauge, OfTwoGrainsAtDifferentHeightsHalfAndSizePushAsWorkedOutByHa
   expect(1, Species::small, (at_contact - at_small) * force, -at_contact * force);
   expect(2, Species::large, {0, 0}, at_large * force);
   expect(2, Species::small, {0, 0}, -at_small * force);
-  // Of both layers: the share of force (x) branch, branch = (0, 0.3).
+  // Sum over both layers of the share of force (x) branch, with branch = (0, 0.3).
   const auto stress = [&](std::size_t rule, Species species) -> Tensor2 {
     return volume *
            (contacts.mean(0, species, rule).stress + contacts.mean(1, species, rule).stress);
@@ -200,14 +200,14 @@ void expect_sums_over_species(int species)
   }
 }
 
-// What one species gains by another cut the others lose.
+// A cut that gives more to one species takes equally from the others.
 TEST(PartitionGauge, TheMixtureIsTheSameUnderAllRulesButDrop)
 {
   expect_sums_over_species<2>(2);
   expect_sums_over_species<3>(3);
 }
 
-// Each interaction moves with the cut: a test of N alone would also pass if rules did nothing.
+// The interaction depends on the cut. A test of N alone would also pass if rules had no effect.
 TEST(PartitionGauge, EachRuleHasAnotherInteraction)
 {
   const auto contacts = contacts_of<2>({random_contacts<2>(6)});
@@ -263,7 +263,7 @@ TEST(PartitionGauge, PartsMergeIntoTheWhole)
 {
   std::vector<Packing> frames;
   for (unsigned k = 0; k < 4; ++k) frames.push_back(random_contacts<2>(10 + k));
-  frames[1].frame.position[30].y() = 6.5;  // one frame is higher than the others
+  frames[1].frame.position[30].y() = 6.5;  // the bed of one frame is higher than that of the others
   const auto whole = contacts_of<2>(frames);
   auto parts = contacts_of<2>({});
   parts.merge(contacts_of<2>({frames[0]}));
@@ -278,8 +278,8 @@ TEST(PartitionGauge, PartsMergeIntoTheWhole)
     }
 }
 
-// Push and spread follow from the rule's stress, beta from its cuts, drag closes the balance: only
-// together do they say nothing of the rule.
+// Push and spread follow from the stress under the rule, beta from its cuts, and drag closes the
+// balance: only their sum does not depend on the rule.
 TEST(PartitionGauge, UnderEveryRuleTheInteractionIsSpreadDragAndScatter)
 {
   const auto frames = two_moments(9);
@@ -302,8 +302,7 @@ TEST(PartitionGauge, UnderEveryRuleTheInteractionIsSpreadDragAndScatter)
   }
 }
 
-// The share p of every mixed contact goes to its large grain, so
-// that the push is linear in p and 0 at p*.
+// The share p of every mixed contact belongs to its large grain, so the push is linear in p and 0 at p*.
 TEST(PartitionGauge, ThePushChangesItsSignAtPStar)
 {
   const auto frames = two_moments(11);
@@ -319,8 +318,8 @@ TEST(PartitionGauge, ThePushChangesItsSignAtPStar)
   }
 }
 
-// At rest every grain's contacts bear its weight: N is minus the weight whatever the rule, while the
-// divergence of stress depends on it. A chain of touching grains, a large one after each small one.
+// At rest, the contacts of every grain carry its weight: N is minus the weight under every rule, while the
+// divergence of stress depends on the rule. The bed is a chain of touching grains, small and large in turn.
 TEST(PartitionGauge, OfGrainsAtRestNIsMinusTheirWeightUnderEveryRule)
 {
   Packing scene;

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-/// Random grains and contacts whose balance is taken under every rule.
+/// Random grains and contacts for balances under every rule.
 namespace grseg {
 
 inline constexpr double gauge_step = 1e-3, kernel_width = 0.2;
@@ -33,9 +33,9 @@ Vector<D> some_gravity()
   return g;
 }
 
-/// Grains of several species and the base with overlaps and gaps, joined by contacts of random force,
-/// and their stored forces. Radii of one species differ, so that rules by size differ from contact to
-/// contact.
+/// Grains of several species and a base, with overlaps and gaps, joined by contacts with random
+/// forces, and the stored forces on the grains. Radii differ within a species, so that shares under
+/// size rules differ from contact to contact.
 template <int D>
 PackingOf<D> random_contacts(unsigned seed, int species = 2)
 {
@@ -91,11 +91,11 @@ MomentumBalance<D> momentum_of(const std::vector<PackingOf<D>>& frames, std::siz
   return balance;
 }
 
-/// Two frames, half a second apart, in which grains have moved on.
+/// Two frames half a second apart, between which grains have moved.
 inline std::vector<Packing> two_moments(unsigned seed)
 {
   auto scene = random_contacts<2>(seed);
-  // Contacts that mostly push, so that there is a stress to share.
+  // Most contacts are repulsive, so that there is a stress to share.
   auto& list = scene.frame.contacts;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Vec2 push = 2 * list.branch[k].normalized();

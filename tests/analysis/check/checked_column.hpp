@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace column;
 using Names = std::set<std::string>;
 
-/// What grseg-check says of a column.
+/// Results of grseg-check for a column.
 class CheckedColumn : public testing::Test {
  protected:
   std::string path =

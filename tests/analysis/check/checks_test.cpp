@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of checks, how a measurement is held against its tolerance, and drifts over a run.
+// Table of checks, comparison of a measurement with its tolerance, and drifts over a run.
 #include "analysis/check/checks.hpp"
 
 #include "analysis/check/physics_check.hpp"
@@ -21,7 +21,7 @@ namespace {
 using checks::named;
 namespace fs = std::filesystem;
 
-/// docs/**/check.md.
+/// Text of docs/**/check.md.
 std::string document()
 {
   for (const auto& entry : fs::recursive_directory_iterator(GRSEG_DOCS))
@@ -98,8 +98,8 @@ TEST(Judge, AllowsMoreRoundOffInSinglePrecisionAndOnlyRoundOff)
   EXPECT_EQ(Judge({}, true).largest(named("overlap_largest"), worst, "").tolerance, 0.1);
 }
 
-// t of 2 degrees of freedom beyond which lies 0.0005 on either side: 31.599.
-// Within that, a deviation of the tolerance would not have been seen: nothing has passed.
+// Student's t with 2 degrees of freedom exceeds 31.599 with the probability 0.0005 on either side. The
+// deviation is smaller, but an error as large as the tolerance could not have been seen: not passed.
 TEST(Judge, LeavesOpenWhatChanceAloneExplainsAndFailsWhatItDoesNot)
 {
   const Judge judge({}, false);
@@ -110,12 +110,12 @@ TEST(Judge, LeavesOpenWhatChanceAloneExplainsAndFailsWhatItDoesNot)
   EXPECT_EQ(line.verdict, Verdict::undecided);
   EXPECT_EQ(judge.statistical(named("weight"), -0.32, 0.01, 3, 1).verdict, Verdict::failed);
   EXPECT_EQ(judge.statistical(named("weight"), -0.32, 0.01, 3, 2).verdict, Verdict::undecided);
-  // An error of a hundredth of that: 0.00316 by chance, less than the tolerance of 0.01.
+  // With a hundredth of that error: 0.00316 by chance, less than the tolerance of 0.01.
   const auto precise = judge.statistical(named("weight"), 0.009, 0.0001, 3, 1);
   EXPECT_EQ(precise.tolerance, 0.01);
   EXPECT_EQ(precise.verdict, Verdict::passed);
   EXPECT_EQ(judge.statistical(named("weight"), 0.011, 0.0001, 3, 1).verdict, Verdict::failed);
-  // Whether the deviation is small makes no difference where chance is not.
+  // The verdict does not depend on a small deviation if chance alone may exceed the tolerance.
   EXPECT_EQ(judge.statistical(named("weight"), 0.001, 0.01, 3, 1).verdict, Verdict::undecided);
 }
 
@@ -129,7 +129,7 @@ TEST(CheckReport, NamesWhatIsUndecidedWithTheNumberOfItsLayersAndCountsIt)
   report.lines.push_back(judge.statistical(named("x_drift"), 0, 0.01, 3, 1));
   report.lines.push_back(judge.statistical(named("slope"), 0, 0, 3, 1));
   EXPECT_EQ(report.undecided(),
-            "undecided, since chance alone explains more than the tolerance: weight (3 layers), "
+            "undecided, because chance alone can exceed the tolerance: weight (3 layers), "
             "x_drift; a longer run decides");
   EXPECT_EQ(report.failures(), "");
   EXPECT_NE(to_json(report).find("\"undecided\": 4"), std::string::npos);

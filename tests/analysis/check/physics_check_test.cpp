@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What grseg-check measures on a column of discs at rest is known. Then one thing is damaged at a
-// time.
+// Measurements of grseg-check on a column of discs at rest, which are known; then one property at a
+// time is damaged.
 #include "formats/core/errors.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "tests/analysis/check/checked_column.hpp"
@@ -26,7 +26,7 @@ TEST_F(CheckedColumn, AtRestPassesEveryCheckThatItsFileAllows)
   }
 }
 
-// The lines follow the table of checks, in its order, after those of the file's content.
+// After the checks of the file's content, the lines follow the order of the table of checks.
 TEST_F(CheckedColumn, HasOneLinePerCheckInTheOrderOfTheTable)
 {
   std::vector<std::string> names{"not_closed", "no_frames", "damaged_frames",
@@ -46,8 +46,8 @@ TEST_F(CheckedColumn, HasOneLinePerCheckInTheOrderOfTheTable)
   EXPECT_EQ(names_of(lines_of(ColumnOf<3>())), of_spheres);
 }
 
-// Between the middles of discs n and n+1 the contact carries n_above discs, so that the layer that
-// spans a disc carries those above and half of itself.
+// Between the middles of discs n and n+1 the contact carries n_above discs, so a layer that spans a
+// disc carries the discs above and half of its own.
 TEST_F(CheckedColumn, CarriesInEachLayerTheDiscsAboveAndHalfOfItsOwn)
 {
   const Column column({3, -weight});
@@ -82,7 +82,7 @@ TEST_F(CheckedColumn, ThatSlidesHasTheStressRatioOfTheSlopeLessItsAcceleration)
   EXPECT_EQ(layers, static_cast<int>(discs) - 1);
 }
 
-// --- One thing damaged at a time: that check fails, and no other. ---
+// One property is damaged at a time: its check fails, and no other.
 
 TEST_F(CheckedColumn, FailsTheForceBalanceIfAForceIsChanged)
 {
@@ -138,8 +138,8 @@ TEST_F(CheckedColumn, FailsTheOpenGapIfAForceActsWithoutTouch)
   EXPECT_EQ(failed(column), (Names{"open_gap_largest", "open_gap_mean"}));
 }
 
-// A gap of 30 micrometres, of which gravity alone excuses 0.75 h sqrt(g d_S); the rest takes an
-// approach of (gap - that)/(0.75 h) = 0.234 m/s before the step.
+// A gap of 30 micrometres. Gravity alone explains 0.75 h sqrt(g d_S) of it; the rest needs an
+// approach speed of (gap - that)/(0.75 h) = 0.234 m/s before the step.
 TEST_F(CheckedColumn, MayHaveAGapThatFreeFlightWouldCloseUnderTheSpeculativeLaw)
 {
   const double gap = 30e-6, flight = 0.75 * h;
@@ -151,14 +151,14 @@ TEST_F(CheckedColumn, MayHaveAGapThatFreeFlightWouldCloseUnderTheSpeculativeLaw)
     column.description.parameters.numbers["horizon"] = {0.75};
     auto& frame = column.frames[7];
     Column::lift_top(frame, gap);
-    // The disc below keeps its velocity: its force balances that of the contact further down.
+    // The disc below does not change its velocity: its force balances that of the contact further down.
     for (std::size_t c = 0; c < discs; ++c)
       Column::push(frame, c, {0, column.description.grains.mass[1] * (approach + faster) / h});
     EXPECT_EQ(failed(column), faster > 0 ? Names{} : (Names{"open_gap_largest", "open_gap_mean"}));
   }
 }
 
-// A law that is not known is not checked as if it were another.
+// A contact law that the program does not know is not checked as if it were another one.
 TEST_F(CheckedColumn, OfAnUnknownContactLawIsRefused)
 {
   Column column;
@@ -166,8 +166,8 @@ TEST_F(CheckedColumn, OfAnUnknownContactLawIsRefused)
   EXPECT_THROW(failed(column), FormatError);
 }
 
-// The plate of a shear cell is pushed back within the step, and without gravity the file states
-// the margin.
+// The plate of a shear cell is pushed back within the step; the file states the margin, because
+// there is no gravity.
 TEST_F(CheckedColumn, AllowsForABoundaryThatMovedBeforeTheStep)
 {
   const double gap = 30e-6, flight = 0.75 * h;
@@ -201,8 +201,8 @@ TEST_F(CheckedColumn, FailsTheApproachIfDiscsKeepApproaching)
   EXPECT_EQ(failed(column), (Names{"approach_largest", "approach_mean"}));
 }
 
-// A disc that touches after an approach at 0.4 m/s owes 0.1 m/s at e = 1/4; one that is 30
-// micrometres away may close its gap within 0.75 steps, at 0.4 m/s.
+// A disc that touches after an approach at 0.4 m/s must separate at 0.1 m/s if e = 1/4. A disc at a
+// distance of 30 micrometres may close its gap within 0.75 steps, at 0.4 m/s.
 TEST_F(CheckedColumn, HasASeparationVelocityByNewtonsLawOrByTheGap)
 {
   ContactRules rules;
@@ -297,8 +297,8 @@ TEST_F(CheckedColumn, FailsTheEnergyDriftIfMoreAndMoreEnergyIsMissing)
   EXPECT_EQ(failed(column), (Names{"energy_defect", "energy_defect_drift"}));
 }
 
-// A disc whose contact has the friction f_x turns by f_x r per inertia m r^2/2 and time; so do the
-// two of every other contact.
+// Friction f_x at a contact changes the spin of a disc by f_x r/(m r^2/2) per time; so does
+// friction at every other contact for its two discs.
 TEST_F(CheckedColumn, HasTorquesThatChangeTheSpinsOfConsecutiveSteps)
 {
   const double g_x = 2;

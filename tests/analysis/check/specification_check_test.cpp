@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs of spheres whose file departs from formats/README.md in one place.
+// Runs of spheres whose file violates formats/README.md in one place.
 #include "analysis/check/file_check.hpp"
 #include "tests/spheres.hpp"
 
@@ -21,7 +21,7 @@ class Specification : public testing::Test {
       (fs::temp_directory_path() / fmt::format("grseg_specification_{}.h5", getpid())).string();
   void TearDown() override { fs::remove(path); }
 
-  /// "PATH WHAT" of the one departure, or "".
+  /// The one violation that is found, "PATH WHAT", or "".
   std::string departure(const RunDescription& run, const Frame<3>& frame) const
   {
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What grseg-check measures on a column of spheres at rest, and which damage it finds.
+// Measurements of grseg-check on a column of spheres at rest, and the damage that it finds.
 #include "tests/analysis/check/checked_column.hpp"
 
 namespace grseg {
@@ -18,7 +18,7 @@ TEST_F(CheckedColumn, OfSpheresOnASlopeAlongBothAxesPassesEveryCheck)
   }
 }
 
-// Discs and spheres alike, along z: each component counts.
+// Checks of discs hold for spheres, too; for spheres also components along z are checked.
 TEST_F(CheckedColumn, OfSpheresFailsTheForceBalanceIfAForceAlongZIsChanged)
 {
   ColumnOf<3> column(oblique);
@@ -26,8 +26,8 @@ TEST_F(CheckedColumn, OfSpheresFailsTheForceBalanceIfAForceAlongZIsChanged)
   EXPECT_EQ(failed(column), Names{"force_balance"});
 }
 
-// Friction along x and z together: with (0.3, 0.1) of the normal force the modulus is 0.316; at
-// (0.4, 0.4) it is beyond 1/2 although neither component is.
+// Friction has components along x and z: with (0.3, 0.1) of the normal force its magnitude is
+// 0.316; with (0.4, 0.4) it exceeds 1/2 although neither component does.
 TEST_F(CheckedColumn, OfSpheresFailsCoulombsLawByTheModulusOfFriction)
 {
   ColumnOf<3> column(oblique);
@@ -47,7 +47,7 @@ TEST_F(CheckedColumn, OfSpheresFailsTheSumOfPartialsIfABranchIsAskewAlongZ)
   EXPECT_EQ(failed(column), Names{"sum_of_partials"});
 }
 
-// The upper four stand just before the edge z = width, the others just behind z = 0.
+// The upper four spheres are just inside the edge z = width, the others just inside z = 0.
 TEST_F(CheckedColumn, OfSpheresMayTouchAcrossTheEdgeAlongZ)
 {
   ColumnOf<3> column(oblique);
@@ -68,7 +68,7 @@ TEST_F(CheckedColumn, OfSpheresFailsTotalMomentumIfTheBasePushesAlongZ)
   EXPECT_EQ(failed(column), Names{"total_momentum"});
 }
 
-// By volume Lx Lz h, and all three species count.
+// Stress is per volume Lx Lz h, and all three species count.
 TEST_F(CheckedColumn, OfSpheresCarriesInEachLayerTheWeightAboveAlongAllAxes)
 {
   const ColumnOf<3> column(oblique);
@@ -116,8 +116,8 @@ TEST_F(CheckedColumn, OfSpheresFailsTheDriftOfTheAxisAlongWhichGrainsMoveWithout
   }
 }
 
-// Friction (f_x, 0, f_z) under a sphere, whose contact is at -r along y, turns it by
-// (-r e_y) x f = r (-f_z, 0, f_x) per inertia 2/5 m r^2; so does that of the sphere above.
+// Friction (f_x, 0, f_z) at the contact under a sphere, at -r along y, turns it by (-r e_y) x f = r
+// (-f_z, 0, f_x) over the inertia 2/5 m r^2; so does friction from the sphere above.
 TEST_F(CheckedColumn, OfSpheresHasTorquesAboutAllAxes)
 {
   const auto turning = [&](double inertia) {

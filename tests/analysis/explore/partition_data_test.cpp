@@ -14,7 +14,7 @@ namespace {
 
 using synthetic::neutral_sums;
 
-/// The polynomial through the nodes, by Lagrange's formula.
+/// Value at q of the polynomial through the nodes, by Lagrange's formula.
 double interpolated(const std::vector<double>& nodes, const std::vector<double>& values, double q)
 {
   double sum = 0;
@@ -47,7 +47,7 @@ TEST(PowerNodes, BetweenThemAPolynomialHasTheShare)
   }
 }
 
-/// Neutral contacts of three compositions, in `windows` windows.
+/// Table of neutral contacts with three compositions, in `windows` windows.
 Table neutral_table(int windows)
 {
   std::vector<synthetic::TableRow> rows;
@@ -129,7 +129,7 @@ TEST(PartitionData, SaysWhatIsMissingWhereNoLayerHoldsBothSpecies)
         partition_data({{synthetic::stress_table({{0, 1, 10, alone}})}, {}}, settings_of("size"),
                        arrays);
       }),
-      "no usable points: 1 rows, 1 without large grains; B needs layers that hold both species");
+      "no usable points: 1 rows, 1 without large grains; B needs layers that contain both species");
 }
 
 }  // namespace

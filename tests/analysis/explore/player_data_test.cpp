@@ -83,7 +83,7 @@ TEST(PlayerData, ContactsAreCountedFrameByFrameAndWallsFromTheTop)
 TEST(PlayerData, ForcesComeBackWithinHalfAStep)
 {
   auto run = two_frames();
-  run.frames[1].across = {20};  // what lies across may be many times what lies along
+  run.frames[1].across = {20};  // the component across may be many times the one along
   const double along_were[] = {2, 4, 1, 0.5}, across_were[] = {1, -2, 0.25, 20};
   BinaryArrays arrays;
   const auto data = player_data(run, cell, arrays);

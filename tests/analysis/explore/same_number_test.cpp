@@ -6,7 +6,7 @@
 namespace grseg {
 namespace {
 
-TEST(CommandsOf, WhatIsAsUsualIsNotSaid)
+TEST(CommandsOf, DefaultsAreLeftOut)
 {
   ExploreSettings settings;
   settings.partition.filters.heights = "inside";
@@ -16,7 +16,7 @@ TEST(CommandsOf, WhatIsAsUsualIsNotSaid)
   EXPECT_EQ(commands["fit"], "");
 }
 
-TEST(CommandsOf, AllThatChangesTheNumberIsSaidWhereItIsUsed)
+TEST(CommandsOf, EveryOptionThatChangesTheNumberIsPassedToTheToolThatUsesIt)
 {
   ExploreSettings settings;
   settings.frames.layer = "2dS";

@@ -60,10 +60,10 @@ TEST_F(ShownRunTest, AForceIsThatAlongTheBranchAndThatToItsLeft)
   EXPECT_EQ(frame.step, 1500);
   EXPECT_EQ(frame.i, (std::vector<std::int32_t>{0, 0}));
   EXPECT_EQ(frame.j, (std::vector<std::int32_t>{1, 2}));
-  // On the large grain from the small one above: (1e-4, -2e-4), the branch points down.
+  // Force (1e-4, -2e-4) on the large grain from the small one above; the branch points down.
   EXPECT_FLOAT_EQ(frame.along[0], 2e-4f);
   EXPECT_FLOAT_EQ(frame.across[0], 1e-4f);
-  // And from the base below: (-3e-4, 1e-3), the branch points up.
+  // Force (-3e-4, 1e-3) on the large grain from the base below; the branch points up.
   EXPECT_FLOAT_EQ(frame.along[1], 1e-3f);
   EXPECT_FLOAT_EQ(frame.across[1], 3e-4f);
   EXPECT_FLOAT_EQ(frame.x[1], 0.053f);
@@ -87,7 +87,7 @@ TEST_F(ShownRunTest, ContactsWithoutForceAreNotShownAndOthersAreInOrder)
   EXPECT_EQ(run.frames[1].j, (std::vector<std::int32_t>{1}));
 }
 
-/// A contact of grain 1 with a wall to its right.
+/// Adds a contact of grain 1 with a wall on its right.
 void touch_wall(Frame<2>& frame, std::int32_t j)
 {
   auto& contacts = frame.contacts;
@@ -139,7 +139,7 @@ TEST_F(ShownRunTest, MoreWallsThanAnySceneHasAreRefused)
 TEST_F(ShownRunTest, GravityIsThatOfTheTimeWhereTheSlopeTurns)
 {
   auto description = three_grains::description();
-  description.parameters.numbers["slope_rate"] = {10};  // degrees a second
+  description.parameters.numbers["slope_rate"] = {10};  // degrees per second
   const auto run = shown<2>(description, {three_grains::frame(0), three_grains::frame(3)});
   EXPECT_GT((run.frames[1].gravity - run.frames[0].gravity).norm(), 1e-3);
   const double turned =
@@ -160,7 +160,7 @@ TEST_F(ShownRunTest, OfSpheresThereAreTheDiscsThatThePlaneHalfWayAcrossCutsOut)
   EXPECT_NEAR(radius[0], std::sqrt(0.006 * 0.006 - 1e-6), 1e-9);
   EXPECT_NEAR(radius[1], std::sqrt(0.004 * 0.004 - 9e-6), 1e-9);
   EXPECT_NEAR(radius[2], std::sqrt(0.0025 * 0.0025 - 0.0024 * 0.0024), 1e-9);
-  // Contacts whose both grains are cut; forces are those in the plane.
+  // Only contacts of which both grains are cut; forces are components in the plane.
   for (std::size_t k = 0; k < run.frames[0].i.size(); ++k) EXPECT_NE(run.frames[0].j[k], 3);
   const Vec2 force(-0.017, 0.013), branch(-0.007, 0.006);
   ASSERT_EQ(run.frames[0].i[1], 1);
@@ -176,7 +176,7 @@ TEST_F(ShownRunTest, GrainsThatAreNeverShownLeaveNoGapInTheNumbersOfOthers)
   frame.position[0].z() = plane + 0.0065;
   const auto run = shown<3>(description, {frame});
   EXPECT_EQ(run.row, (std::vector<std::uint32_t>{1, 2, 3}));
-  // Left are contacts of the fine grain (now 1): with the middle one (now 0) and with wall 1.
+  // The remaining contacts of the fine grain (now 1): with the middle grain (now 0) and with wall 1.
   EXPECT_EQ(run.frames[0].i, (std::vector<std::int32_t>{1, 1}));
   EXPECT_EQ(run.frames[0].j, (std::vector<std::int32_t>{-2, 0}));
 }

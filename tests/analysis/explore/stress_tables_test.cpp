@@ -30,8 +30,8 @@ TEST(TablesOfRuns, ATableBelongsToTheRunWithItsDigest)
   EXPECT_EQ(found[1], &tables[0]);
 }
 
-// Another file of the same flow, such as some frames of it for a film. A bed without a flow is that of
-// an import, which may be of several runs.
+// Another file of the same flow contains, for example, some of its frames for a film. A bed without a
+// flow is a bed of an import, which several runs may have.
 TEST(TablesOfRuns, ATableBelongsToAnotherFileOfItsFlow)
 {
   auto table = table_of("a.tsv", "grseg-stress 0.2.0", {"xxh3 00000000000000cc"});
@@ -49,16 +49,15 @@ TEST(TablesOfRuns, TablesOfOtherRunsProgramsAndSeveralRunsAreRefused)
   EXPECT_EQ(
       refused(table_of("c.tsv", "grseg-stress 0.2.0", {"xxh3 00000000000000cc"})),
       "c.tsv: is of the run with the digest xxh3 00000000000000cc, and no run given has this digest "
-      "or the same bed; name that run, make the table again, or leave it out: sums are then made "
-      "from the run");
+      "or the same bed; add that run, make the table again, or leave the table out: its sums are "
+      "then made from the run");
   EXPECT_EQ(refused(table_of("k.tsv", "grseg-kinetic 0.2.0", {digests[0]})),
-            "k.tsv: is a table of grseg-kinetic 0.2.0; only tables of grseg-stress can be given "
-            "beside runs");
+            "k.tsv: is a table of grseg-kinetic 0.2.0; beside runs, give tables of grseg-stress "
+            "only");
   EXPECT_EQ(refused(table_of("m.tsv", "grseg-stress 0.2.0", digests)),
             "m.tsv: is made of 2 runs; give tables of one run each");
-  EXPECT_EQ(
-      refused(Table{}),
-      "table: is not a table made by grseg; only tables of grseg-stress can be given beside runs");
+  EXPECT_EQ(refused(Table{}),
+            "table: is not a table made by grseg; beside runs, give tables of grseg-stress only");
 }
 
 TEST(TablesOfRuns, TwoTablesOfOneRunAreRefused)
@@ -70,7 +69,7 @@ TEST(TablesOfRuns, TwoTablesOfOneRunAreRefused)
             "a.tsv and a.tsv are of the same run; give one of them");
 }
 
-TEST(SpeciesOfATable, OthersThanThoseOfTheRunBesideAreRefused)
+TEST(SpeciesOfATable, OtherSpeciesThanTheRunsAreRefused)
 {
   auto table = table_of("a.tsv", "grseg-stress 0.2.0", {digests[0]});
   const auto two = two_sizes(0.005, 0.01);
@@ -78,8 +77,8 @@ TEST(SpeciesOfATable, OthersThanThoseOfTheRunBesideAreRefused)
   require_same_species(table, two);
   EXPECT_EQ(
       complaint_of<UsageError>([&] { require_same_species(table, three); }),
-      "a.tsv: has the species small, large, and the run beside it c1 0.004, c2 0.005, c3 0.01; "
-      "give both the same --group, --classes or --edges, or leave the table out");
+      "a.tsv: has the species small, large, but its run has c1 0.004, c2 0.005, c3 0.01; give both "
+      "the same --group, --classes or --edges, or leave the table out");
   table.header.emplace_back("species", species_text(three));
   require_same_species(table, three);
   EXPECT_NE(complaint_of<UsageError>([&] { require_same_species(table, two); }), "");

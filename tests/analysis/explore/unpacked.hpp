@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What a page finds in the arrays, read as its program does, but written apart from both.
+/// The arrays that a page finds, decoded like in its JavaScript but by independent code.
 namespace grseg::unpacked {
 
 inline std::vector<unsigned char> from_base64(const std::string& text)
@@ -44,7 +44,7 @@ inline std::vector<unsigned char> bytes_of(const BinaryArrays& arrays)
   return bytes;
 }
 
-/// The array of this name; `type` is what the directory must call it.
+/// Array with this name; `type` is the type that the directory must state.
 template <class Number>
 std::vector<Number> array(const BinaryArrays& arrays, const std::string& name,
                           const std::string& type)

@@ -48,14 +48,14 @@ TEST(Estimators, APowerLawKeepsItsExponentWhateverTheWeights)
 }
 
 // Staron & Phillips (2015): slope 0.9660 "B between 0.034 and 0.035"; slope 1.4413 "B = -0.373",
-// the half-sum of the ends of a range from -0.4413 to -0.3062.
+// the mean of the ends of a range from -0.4413 to -0.3062.
 TEST(Estimators, ThePapersSlopesGiveThePapersB)
 {
   EXPECT_NEAR(estimators_of(power_law(0.966, 1)).paper_B, (0.0340 + 0.0352) / 2, 5e-5);
   EXPECT_NEAR(estimators_of(power_law(1.4413, 1)).paper_B, -0.3737, 1e-4);
 }
 
-// Gray & Thornton (2005) itself, psi_L = phi_L (1 + B phi_S).
+// The relation of Gray & Thornton (2005), psi_L = phi_L (1 + B phi_S).
 TEST(Estimators, AConstantBOfGrayAndThorntonIsFoundExactly)
 {
   const double b = 0.31;
@@ -82,7 +82,7 @@ TEST(Estimators, TwoLayersByHand)
   EXPECT_NEAR(b.paper_k, 1, 1e-14);
 }
 
-// Of 10 and 30 frames: (10 (2/3 - 4/5) + 30 (1/3 - 1/5))/(40 x 4/25).
+// Windows of 10 and of 30 frames: B = (10 (2/3 - 4/5) + 30 (1/3 - 1/5))/(40 x 4/25).
 TEST(Estimators, BCountsFramesAndNothingElse)
 {
   std::vector<FitPoint> points{{.phi_large = 0.8, .weight = 3, .frames = 10, .size_ratio = 2},
@@ -93,9 +93,9 @@ TEST(Estimators, BCountsFramesAndNothingElse)
   EXPECT_NEAR(estimators_of(points).B, (10 * (2. / 3 - 0.8) + 30 * (1. / 3 - 0.2)) / 6.4, 1e-14);
 }
 
-// Three large grains per layer, each bearing its share of the stress times an exponential variate,
-// whose mean is 1: sorting is nil. The mean of the logarithm of the mean of n such variates is
-// psi(n) - ln n, with psi the digamma function: -0.176 for n = 3. B has no logarithm.
+// Three large grains per layer carry their share of the stress times an exponential variate of mean
+// 1, so B = 0. The mean of the logarithm of the mean of n such variates is psi(n) - ln n, with the
+// digamma function psi: -0.176 for n = 3. B contains no logarithm.
 TEST(Estimators, FewGrainsSpoilTheMeanOfLogarithmsAndNotTheRatioOfSums)
 {
   constexpr std::size_t layers = 20000, grains = 3;
@@ -113,8 +113,8 @@ TEST(Estimators, FewGrainsSpoilTheMeanOfLogarithmsAndNotTheRatioOfSums)
     points.push_back(point);
   }
   const auto b = estimators_of(points);
-  // Standard errors: of the logarithm the root of psi'(3) = 0.395 over the layers, 0.0044; of the
-  // sums the root of 1/3, 0.0041.
+  // Standard errors over the layers: 0.0044 for the logarithm, from the root of psi'(3) = 0.395;
+  // 0.0041 for the sums, from the root of 1/3.
   EXPECT_NEAR(b.minus_ln_s, gsl_sf_psi_int(grains) - std::log(grains), 4 * 0.0044);
   EXPECT_NEAR(b.B, 0, 4 * 0.0041);
 }
@@ -126,7 +126,7 @@ TEST(Estimators, SumsOverWindowsSayTheSameAsGslsFitsOfThePoints)
     FitPoint point{.window = k % 11, .phi_large = 0.5 + 0.49 * scatter(k), .size_ratio = 2};
     point.weight = 2 + scatter(3 * k);
     point.large = point.phi_large * (1 + 0.2 * scatter(7 * k + 1));
-    point.small = 1 - point.phi_large + (k == 17 ? -1 : 0);  // one without a logarithm
+    point.small = 1 - point.phi_large + (k == 17 ? -1 : 0);  // a point whose ratio has no logarithm
     point.total = point.large + point.small;
     points.push_back(point);
   }
@@ -181,7 +181,7 @@ TEST(NeutralContacts, SharedOtherwiseShowExactlyTheClosedForm)
   EXPECT_EQ(fit(data, "half").neutral, fit(data, "uniform:0.5").neutral);
 }
 
-// By size sigma^L = phi_L sigma exactly in all layers, so that no sum can move p* from r/(1 + r).
+// Under size, sigma^L = phi_L sigma exactly in all layers, so no noise of the sums moves p* from r/(1 + r).
 TEST(NeutralContacts, HaveNoBOfSumsAtTheShareBySize)
 {
   for (const double r : {1.3, 2.0, 4.0}) {
@@ -194,7 +194,7 @@ TEST(NeutralContacts, HaveNoBOfSumsAtTheShareBySize)
   }
 }
 
-// Disturbed, B by the share line.p_zero of every contact is zero all the same.
+// With noise, B is still zero if line.p_zero is the share of every contact.
 TEST(NeutralContacts, TheZeroOfTheSumsIsOneAndItsIntervalHoldsIt)
 {
   const auto data = neutral_data(0.3);
@@ -205,7 +205,7 @@ TEST(NeutralContacts, TheZeroOfTheSumsIsOneAndItsIntervalHoldsIt)
   EXPECT_NEAR(fit_rule(data, at_zero, {}, Bootstrap(data.runs, 0, 1)).value.B, 0, 1e-13);
   EXPECT_LT(by_size.line.p_zero.estimate().low, 2. / 3);
   EXPECT_GT(by_size.line.p_zero.estimate().high, 2. / 3);
-  // dB/dp = -B/(p* - 2/3), as B is linear in p: both intervals tell the same.
+  // dB/dp = -B/(p* - 2/3), because B is linear in p: both intervals agree.
   const double slope = by_size.value.B / (2. / 3 - zero);
   EXPECT_NEAR((by_size.line.p_zero.estimate().high - by_size.line.p_zero.estimate().low) * slope,
               by_size.high.B - by_size.low.B, 0.05 * (by_size.high.B - by_size.low.B));
@@ -229,7 +229,7 @@ TEST(NeutralContacts, DisturbedOnesShowInTheDifferenceToSizeWhatTheRuleAdds)
   EXPECT_EQ(size.minus_size.value, 0);
 }
 
-// r = 2: (0.8 - 2/3) 3/(1 + phi_S), of 30 frames at 0.2 and 10 at 0.8, where phi_L phi_S is the same.
+// r = 2: (0.8 - 2/3) 3/(1 + phi_S), for 30 frames at phi_L = 0.2 and 10 at 0.8, where phi_L phi_S is equal.
 TEST(NeutralContacts, TheClosedFormIsAveragedWithTheWeightsOfB)
 {
   const auto data =
@@ -253,14 +253,14 @@ TEST(NeutralContacts, DroppedMixedContactsLeaveAParabolaAndNoB)
 
 // ---- intervals ----------------------------------------------------------------------------------
 
-// One layer per window, all of one composition and weight: minus_ln_s is the plain mean of -ln(y/x), so
-// its interval is that of a mean. 40 windows with ln(y/x) = +-0.1 in an order without correlation:
-// standard deviation 0.1 sqrt(40/39), Student's t for 39 degrees of freedom 2.0227.
+// One layer per window, all with one composition and weight: minus_ln_s is the plain mean of -ln(y/x),
+// so its interval is that of a mean. 40 windows with ln(y/x) = +-0.1, ordered so that they are
+// uncorrelated: standard deviation 0.1 sqrt(40/39), Student's t for 39 degrees of freedom 2.0227.
 TEST(Intervals, OfIndependentWindowsAreThoseOfAMean)
 {
   std::vector<TableRow> rows;
   for (int k = 0; k < 40; ++k) {
-    // + - + + - - - + and its negative: correlations of neighbours cancel to a few per cent.
+    // The signs + - + + - - - + and their negatives: correlations of neighbours cancel to a few per cent.
     const double sign = "+-++---+-+--+++-"[k % 16] == '+' ? 1 : -1;
     rows.push_back(
         {1.0 * k, k + 1.0, 10,
@@ -284,7 +284,7 @@ TEST(Intervals, HoldEachEstimateAndExistForAll)
     EXPECT_GT(result.high.*place, result.value.*place) << name;
   }
   EXPECT_LT(result.minus_size.estimate().low, result.minus_size.value);
-  // The same samples for both rules: the difference is known better than either.
+  // Both rules use the same samples: their difference is known better than either value.
   EXPECT_LT(result.minus_size.estimate().high - result.minus_size.estimate().low,
             result.high.B - result.low.B);
 }
@@ -293,7 +293,7 @@ TEST(Intervals, OfThePapersBIsThatOfItsSlope)
 {
   const auto data = neutral_data(0.1);
   const auto result = fit_rule(data, {}, {}, Bootstrap(data.runs, 1000, 1));
-  // dB/ds = -(1 + 1/s^2)/2, so both intervals are one but for curvature.
+  // dB/ds = -(1 + 1/s^2)/2, so the two intervals agree except for curvature.
   const double s = result.value.paper_s;
   EXPECT_NEAR((result.high.paper_B - result.low.paper_B) /
                   ((result.high.paper_s - result.low.paper_s) * (1 + 1 / (s * s)) / 2),

@@ -31,7 +31,8 @@ TEST(FitData, AWeightIsFramesTimesGrainsOfTheRarerSpecies)
 {
   const auto data =
       read({stress_table({{0, 1, 10, neutral_sums(0.2, 2)}, {0, 1, 30, neutral_sums(0.9, 2)}})});
-  // Large grains per small area: phi_L/4 = 0.05 against 0.8; then 0.225 against phi_S = 0.1.
+  // The weight is the number of grains of the rarer species per small area: phi_L/4 = 0.05 against
+  // 0.8 in the first sample; phi_S = 0.1 against 0.225 in the second.
   EXPECT_NEAR(data.samples[1].weight / data.samples[0].weight, 3 * 0.1 / 0.05, 1e-12);
   EXPECT_NEAR(data.samples[0].phi_large, 0.2, 1e-15);
   EXPECT_EQ(data.samples[0].size_ratio, 2);
@@ -49,7 +50,7 @@ TEST(FitData, LayersOfOneWindowShareItAndRunsFollowOneAnother)
   EXPECT_EQ(windows, (std::vector<std::size_t>{0, 0, 1, 3, 2}));
 }
 
-/// Windows of a run with this history from `begin` on.
+/// Table of windows of a run with this history, from time `begin` on.
 Table table_of_run(const std::vector<std::string>& history, int begin, double noise)
 {
   std::vector<TableRow> rows;
@@ -65,7 +66,7 @@ Table table_of_run(const std::vector<std::string>& history, int begin, double no
   return table;
 }
 
-// Given in any order, and whatever the digests of the two files.
+// The order of the files and their digests have no effect.
 TEST(FitData, ARunAndItsContinuationAreOneRunWithItsWindowsInLine)
 {
   const auto early = table_of_run({"grseg-sim a.ini"}, 0, 0.1);
@@ -77,7 +78,7 @@ TEST(FitData, ARunAndItsContinuationAreOneRunWithItsWindowsInLine)
   EXPECT_EQ(read({late, early, other}).runs, (RunLengths{20, 10}));
 }
 
-// As if each window had twice as many layers: the interval is that of one of the two.
+// Equivalent to twice as many layers per window: the interval is that of one of the two tables.
 TEST(FitData, ATwinAddsNoObservations)
 {
   const std::string twin = "grseg-sim --restart a.chk --perturb 1e-6 --seed-perturbation ";
@@ -111,7 +112,7 @@ TEST(FitData, EachFilterCountsWhatItRemoves)
   rows.push_back({0, 1, 9, neutral_sums(0.5, 2)});        // too early
   rows.push_back({8, 9, 9, neutral_sums(0.5, 2)});        // too late
   rows.push_back({2, 3, 9, neutral_sums(0.5, 2, 0.39)});  // thin: below half of 0.8
-  rows.push_back({2, 3, 9, neutral_sums(0.5, 2, 0.41)});  // just not
+  rows.push_back({2, 3, 9, neutral_sums(0.5, 2, 0.41)});  // just above half of 0.8
   rows.push_back({2, 3, 9, neutral_sums(0.005, 2)});      // x = 199
   rows.push_back({2, 3, 9, separate_sums(0, any_tensor(), Tensor2::Zero())});
   rows.push_back({2, 3, 9, separate_sums(1, Tensor2::Zero(), any_tensor())});
@@ -171,7 +172,7 @@ TEST(FitData, TheSameWindowsOfTheSameRunAreNotCountedTwice)
   late.header.emplace_back("input", "run.h5 0123456789abcdef");
   EXPECT_EQ(sentence_of<UsageError>({early, late}), "");
   EXPECT_TRUE(holds(sentence_of<UsageError>({early, late, early}),
-                    "both hold the time from 0 s of the same run"));
+                    "both contain the time from 0 s of the same run"));
   auto between = stress_table({{0.5, 1.5, 9, neutral_sums(0.4, 2)}});
   EXPECT_EQ(sentence_of<UsageError>({early, between}), "");
   between.header.emplace_back("input", "run.h5 0123456789abcdef");
@@ -185,7 +186,7 @@ TEST(FitData, TheSameNumbersUnderAnotherDigestAreTheSameRun)
   a.header.emplace_back("input", "xxh3 1");
   b.header.emplace_back("input", "xxh3 2");
   EXPECT_TRUE(holds(sentence_of<UsageError>({a, b}), "(all numbers are the same)"));
-  b.rows[1][b.column("M_yy")] *= 1 + 1e-15;  // a bit of it
+  b.rows[1][b.column("M_yy")] *= 1 + 1e-15;  // changed in its last bit
   EXPECT_EQ(sentence_of<UsageError>({a, b}), "");
 }
 
@@ -251,7 +252,7 @@ Table kinetic_table(double slope)
   return table;
 }
 
-// The slope of the kinetic stresses is the ratio of the mean squared fluctuations (mass-weighted).
+// The slope of the kinetic stresses is the ratio of the mean squared fluctuations, weighted by mass.
 TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
 {
   const auto data = read({kinetic_table(1.44)}, {}, Quantity::kinetic);
@@ -264,7 +265,7 @@ TEST(FitData, KineticStressesAreFittedWithMassesForComposition)
               1e-13);
 }
 
-// Large grains of twice the density: their part of the mass is larger than phi_L.
+// Large grains have twice the density: their share of the mass exceeds phi_L.
 TEST(FitData, CompositionOfAKineticTableIsThatOfItsAreas)
 {
   const auto by_area = fit(read({kinetic_table(1.44)}, {}, Quantity::kinetic), "size").value;

@@ -16,8 +16,8 @@
 namespace grseg {
 namespace {
 
-/// 30 windows of 4 layers with different compositions, in which species nu bears
-/// phi^nu s^a/sum(phi s^a) of the stress, times 1 + noise.
+/// 30 windows of 4 layers with different compositions. Species nu carries the part phi^nu
+/// s^a/sum(phi s^a) of the stress, times 1 + noise.
 Table table_with_exponent(const SpeciesList& species, double a, double noise, int dimension = 3)
 {
   Table table;
@@ -96,7 +96,7 @@ TEST(SizeExponent, OfTwoSpeciesIsThatOfTheirLogarithms)
   }
 }
 
-// minus_ln_s of two species is -ln s = a ln r (flows.md 1).
+// For two species, minus_ln_s is -ln s = a ln r.
 TEST(FitPairs, GiveBOfEveryTwoSpecies)
 {
   const auto fits = fits_of(table_with_exponent(five, 0.3, 0));

@@ -36,7 +36,7 @@ TEST(FitReport, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers)
   EXPECT_EQ(to_tsv(report_with_seed(3)), to_tsv(report_with_seed(3)));
 }
 
-/// The rows of a quantity of a rule, in their order.
+/// Rows of a quantity under a rule, in order.
 std::vector<NumberRow> rows_of(const FitReport& report, const std::string& rule,
                                const std::string& quantity)
 {
@@ -50,7 +50,7 @@ TEST(FitReport, EveryNumberHasARowWithItsIntervalAndWhatThatIsOver)
 {
   const auto report = report_with_seed(1);
   const auto b = rows_of(report, "size", "B");
-  ASSERT_EQ(b.size(), 1u);  // one run: over its windows alone
+  ASSERT_EQ(b.size(), 1u);  // one run: only an interval over its windows
   EXPECT_EQ(b[0].over, "windows");
   EXPECT_EQ(b[0].number.value, report.rules[0].value.B);
   EXPECT_EQ(b[0].number.low, report.rules[0].low.B);
@@ -67,7 +67,7 @@ TEST(FitReport, ARuleWhosePartsDoNotAddUpHasNoB)
 {
   auto report = report_with_seed(1);
   EXPECT_TRUE(rows_of(report, "drop", "B").empty());
-  EXPECT_TRUE(rows_of(report, "drop", "paper_k").empty());  // not asked for
+  EXPECT_TRUE(rows_of(report, "drop", "paper_k").empty());  // this number was not asked for
   report.with_paper = true;
   EXPECT_EQ(rows_of(report, "drop", "paper_k")[0].number.value, report.rules[1].value.paper_k);
   EXPECT_TRUE(rows_of(report, "drop", "paper_B").empty());
@@ -87,12 +87,12 @@ TEST(FitReport, JsonHoldsTheRowsOfTheTable)
   EXPECT_EQ(json["scan"].size(), 4u);
   EXPECT_EQ(json["scan"][1][0], 0.6);
   EXPECT_EQ(json["scan"][1][1], report.scan->fits[1].value.B);
-  EXPECT_EQ(json["doubts"].size(), 1u);  // too few windows, of all rules
+  EXPECT_EQ(json["doubts"].size(), 1u);  // one doubt for all rules: too few windows
   EXPECT_EQ(json["inputs"][0], "run.h5 0123456789abcdef");
   EXPECT_EQ(json["history"].size(), 2u);
 }
 
-// Two slopes are two flows: a column of numbers tells them apart.
+// Two slopes are two flows, which a column with the slope distinguishes.
 TEST(FitReport, WhatFlowsDifferInHasAColumnWithItsUnit)
 {
   auto report = report_with_seed(1);

@@ -21,7 +21,7 @@ using synthetic::neutral_sums;
 using synthetic::stress_table;
 using synthetic::TableRow;
 
-/// A run of two windows and one layer, of this composition.
+/// Table of a run with two windows and one layer of this composition.
 Table run_of(double phi_large, const std::string& gravity = "3.83", double scatter = 0)
 {
   auto table = stress_table({{0, 1, 10, neutral_sums(phi_large, 2 + scatter)},
@@ -62,7 +62,8 @@ TEST(Flows, AreToldApartByAllThatTablesRecordOfTheFlow)
   EXPECT_EQ(flows[1].name, "Phi_L = 0.30, gravity_x = 4.3");
 }
 
-// Of spheres the cell has a width, too. What only one of two tables records tells them apart as well.
+// For spheres the cell also has a width. A value that only one of two tables records also
+// distinguishes them.
 TEST(Flows, AreToldApartByTheirMaterialAndTheWidthOfTheCell)
 {
   int runs = 0;
@@ -97,7 +98,7 @@ TEST(Flows, TheWordsNameWhatTheTablesRecord)
       std::string::npos);
 }
 
-// Nominal diameters of imported runs are measured on their grains, which differ from seed to seed.
+// Nominal diameters of imported runs are measured on the grains, which differ from seed to seed.
 TEST(Flows, DiametersMeasuredOnTheGrainsOfSeedsAreThoseOfOne)
 {
   int runs = 0;
@@ -117,7 +118,8 @@ TEST(Flows, DiametersMeasuredOnTheGrainsOfSeedsAreThoseOfOne)
   EXPECT_EQ(flows[0].tables, (Numbers{0, 1}));
 }
 
-// Whether grains began mixed, and how deep the bed is, stands in the scene alone; seeds and times make no other flow.
+// Initial mixing and bed depth are recorded in the scene only; different seeds and times are not different
+// flows.
 TEST(Flows, DifferInTheKeysOfTheirScenesButSeedsAndTimes)
 {
   int runs = 0;
@@ -140,7 +142,7 @@ TEST(Flows, DifferInTheKeysOfTheirScenesButSeedsAndTimes)
   EXPECT_EQ(flows[2].settings[0], (std::pair<std::string, std::string>{"depth[m]", "0.6"}));
 }
 
-// What begins with the same number need not be the same.
+// A list that starts with the same number may still be different.
 TEST(Flows, AListIsNotItsFirstNumber)
 {
   std::vector<Table> tables{run_of(0.3), run_of(0.3001)};
@@ -150,7 +152,7 @@ TEST(Flows, AListIsNotItsFirstNumber)
   EXPECT_EQ(find_flows(read, "auto").size(), 2u);
 }
 
-TEST(Flows, OrAsTheUserSays)
+TEST(Flows, AreAsTheUserSays)
 {
   const std::vector<Table> tables{run_of(0.3), run_of(0.301), run_of(0.5)};
   auto read = read_all(tables);
@@ -179,7 +181,7 @@ TEST(Flows, ThePartOfOneIsWhatItsTablesGiveAlone)
   EXPECT_NEAR(weight_shares(both, 2)[0], products / (products + 0.25), 1e-12);
 }
 
-/// Runs of one window and one layer, each with its own -ln s, that of its flow plus -d, 0, d.
+/// Runs of one window and one layer. -ln s of the three runs is the value of the flow plus -d, 0 and d.
 struct KnownFlow {
   double b, d, weight;
 };
@@ -219,9 +221,9 @@ double reach(const RuleFit& fit)
   return (fit.high.minus_ln_s - fit.low.minus_ln_s) / 2;
 }
 
-// Three runs -d, 0, d about their flow: the standard error of its mean is d/sqrt(3), with two
+// Three runs at -d, 0 and d about their flow: the standard error of its mean is d/sqrt(3), with two
 // degrees of freedom. minus_ln_s = -ln s is linear in the runs.
-TEST(Populations, OfOneFlowAreItsRuns)
+TEST(Populations, IntervalsOfOneFlowAreOverItsRuns)
 {
   const auto fit = fit_over(three_runs_of_each({{0.04, 0.003, 2}}), Population::automatic);
   EXPECT_EQ(fit.over, Population::runs);
@@ -237,7 +239,7 @@ TEST(Populations, FlowsAsTheyAreCountByTheirWeights)
       fit_over(three_runs_of_each({{0.03, 0.003, 1}, {0.05, 0.001, 3}}), Population::automatic);
   EXPECT_EQ(fit.over, Population::flows);
   EXPECT_NEAR(fit.value.minus_ln_s, (0.03 + 3 * 0.05) / 4, 1e-15);
-  // Both flows contribute the same error: 0.003/4 and 3 x 0.001/4, over sqrt(3).
+  // Both flows contribute equal errors: 0.003/4 and 3 x 0.001/4, over sqrt(3).
   const double error = std::sqrt(2.0 / 3) * 0.003 / 4;
   EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 4) * error, 1e-10);
 }
@@ -251,13 +253,13 @@ TEST(Populations, EqualFlowsAreTheMeanOfTheirBs)
   const double sum = 14e-6, fourths = (81e-12 + 1e-12 + 16e-12) / (2 + 2);
   const double degrees = sum * sum / fourths - 2;
   EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, degrees) * std::sqrt(sum / 27), 1e-10);
-  EXPECT_NEAR(fit.degrees, degrees, 0.01);  // those of B, which is not quite linear
-  // How flows differ is not in it.
+  EXPECT_NEAR(fit.degrees, degrees, 0.01);  // degrees of B, which is not quite linear
+  // Differences between flows are not part of the interval.
   const auto apart = three_runs_of_each({{-0.53, 0.003, 1}, {0.05, 0.001, 3}, {0.63, 0.002, 9}});
   EXPECT_NEAR(reach(fit_over(apart, Population::equal_flows)), reach(fit), 1e-10);
 }
 
-/// Two flows, of two runs each, that scatter by `scatter`; large grains are twice as large.
+/// Two flows of two runs each that scatter by `scatter`; large grains are twice as large as small ones.
 FitData four_runs(double scatter)
 {
   const std::vector<Table> tables{run_of(0.3, "1", scatter), run_of(0.3, "1", 2 * scatter),
@@ -267,8 +269,8 @@ FitData four_runs(double scatter)
   return select_fit_data(read, Quantity::contact, {}, {{0, 1}});
 }
 
-// Beside B stands how far it is from that by size: with either each flow counts the same.
-TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
+// Next to B is its difference from B under size: in both numbers each flow has equal weight.
+TEST(Populations, AllNumbersOfARowAreOverTheSamePopulation)
 {
   const auto data = four_runs(0.2);
   for (const auto over : {Population::equal_flows, Population::random_flows}) {
@@ -287,8 +289,8 @@ TEST(Populations, AllNumbersOfARowAreOfTheSameOnes)
   }
 }
 
-// Errors of the difference half - size of two flows of which each is known add up: 1/2 of the root of
-// the sum of their squares.
+// Errors of the difference half - size of two separately fitted flows combine: 1/2 of the root of the
+// sum of their squares.
 TEST(Populations, TheDifferenceToSizeHasTheErrorsOfTheFlowsDifferences)
 {
   const auto fits =
@@ -299,8 +301,8 @@ TEST(Populations, TheDifferenceToSizeHasTheErrorsOfTheFlowsDifferences)
   EXPECT_NEAR(fits.all.minus_size.error.error, sum / 2, 1e-15);
 }
 
-// Whatever the intervals of all are over, flows are known as well as their runs tell.
-TEST(Populations, EqualFlowsAreByTheirRunsAlsoBesideIntervalsOverWindows)
+// The intervals of single flows are over their runs, whatever the intervals over all flows are over.
+TEST(Populations, EqualFlowsAreOverTheirRunsAlsoBesideIntervalsOverWindows)
 {
   synthetic::RunsOfFlows source({3, 4, 2, 3});
   const auto data = source.draw().data;
@@ -318,12 +320,12 @@ TEST(Populations, RandomFlowsScatterLikeTheirBs)
   const auto fit = fit_over(data, Population::random_flows);
   EXPECT_NEAR(fit.value.minus_ln_s, 0.05, 1e-15);
   EXPECT_NEAR(reach(fit), gsl_cdf_tdist_Pinv(0.975, 2) * 0.02 / std::sqrt(3), 1e-12);
-  EXPECT_NE(fit.doubt.find("3 flows tell little of how flows differ"), std::string::npos);
+  EXPECT_NE(fit.doubt.find("3 flows show little of how flows differ"), std::string::npos);
   EXPECT_TRUE(std::isfinite(fit.at(Population::equal_flows).low));
   EXPECT_NEAR(fit.at(Population::flows).value, fit_over(data, Population::flows).value.B, 1e-15);
 }
 
-/// The share of trials in which an interval of B holds a number.
+/// Share of trials in which an interval of B contains the true value.
 struct Held {
   int trials = 0, held = 0;
 
@@ -333,14 +335,14 @@ struct Held {
     held += b.low <= truth && truth <= b.high;
   }
   double share() const { return static_cast<double>(held) / trials; }
-  /// 95 % as far as so many trials can tell: 3.5 standard deviations of a binomial share.
+  /// Expects 95 % within 3.5 standard deviations of a binomial share of so many trials.
   void expect_95_percent(const char* what) const
   {
     EXPECT_NEAR(share(), 0.95, 3.5 * std::sqrt(0.95 * 0.05 / trials)) << "over " << what;
   }
 };
 
-// Flows that differ by twice the error of one, runs by as much as their windows make them.
+// Flows differ by twice the error of one flow; runs differ as much as their windows explain.
 TEST(Coverage, OfEachPopulationIsThatOfItsOwnNumberAndNotOfAnother)
 {
   synthetic::RunsOfFlows source({6, 4, 2, 1});
@@ -362,8 +364,8 @@ TEST(Coverage, OfEachPopulationIsThatOfItsOwnNumberAndNotOfAnother)
   flows.expect_95_percent("flows");
   equal.expect_95_percent("equal flows");
   random.expect_95_percent("random flows");
-  // The mean of six is off by twice the error of one over sqrt(6), its own error by the root of 5 less:
-  // it holds the mean of all with the chance of |Z| < 2.1/sqrt(5).
+  // The mean of six flows is off by twice the error of one over sqrt(6); its own error is smaller by the
+  // root of 5. Its interval contains the mean of all flows with the probability of |Z| < 2.1/sqrt(5).
   EXPECT_LT(equal_for_all.share(), 0.8);
 }
 
@@ -381,7 +383,7 @@ TEST(Coverage, OfTwoRunsOfEachFlowIsThatOfMore)
   equal.expect_95_percent("equal flows");
 }
 
-/// In how many of so many trials the doubt is voiced that one function of composition is not enough.
+/// Number of trials, out of `trials`, that report the doubt that one function of composition is not enough.
 int doubts_of_one_function(double flow_scatter, unsigned long trials)
 {
   synthetic::RunsOfFlows source({6, 4, flow_scatter, 1});
@@ -395,8 +397,8 @@ int doubts_of_one_function(double flow_scatter, unsigned long trials)
   return doubts;
 }
 
-// Fisher's test at 5 %: more often it is not wrong, and flows that differ by four times the error
-// of one, for which the ratio of mean squares is 17 on average, it misses in few of a hundred.
+// Fisher's test at 5 % has at most 5 % false alarms. If flows differ by four times the error of one, so
+// that the ratio of mean squares is 17 on average, the test misses this in a few of a hundred trials.
 TEST(Populations, OneFunctionOfCompositionIsDoubtedWhereFlowsDiffer)
 {
   constexpr double by_chance = 0.05 * 200;
@@ -404,9 +406,9 @@ TEST(Populations, OneFunctionOfCompositionIsDoubtedWhereFlowsDiffer)
   EXPECT_GT(doubts_of_one_function(4, 100), 90);
 }
 
-// A single run does not tell how runs differ; what its windows tell is an interval with a doubt, or
-// none where they are too few for their correlation, as ten of rho = 1/2 often are.
-TEST(Populations, WindowsStandForRunsOfAFlowThatHasOne)
+// A single run does not show how runs differ. Its windows give an interval with a doubt, or no
+// interval if they are too few for their correlation, as ten windows of rho = 1/2 often are.
+TEST(Populations, AFlowOfOneRunHasAnIntervalOverItsWindows)
 {
   synthetic::RunsOfFlows source({2, 1, 0, 0});
   int with_interval = 0;
@@ -422,10 +424,10 @@ TEST(Populations, WindowsStandForRunsOfAFlowThatHasOne)
   EXPECT_LT(with_interval, 30);
 }
 
-// Windows of a single run that differ among themselves by +-1; that all of them are off by 7, since the
-// flow is, is no scatter. Nor is it in proportion to unequal weights. Eight values +-1/8 in an order
-// without correlation have the error of their mean, sqrt(8/7)/sqrt(8), with seven degrees of freedom.
-TEST(Populations, OfASingleRunHowItsFlowDiffersIsNoScatterOfItsWindows)
+// Windows of a single run differ among themselves by +-1. A common offset of 7, which comes from the
+// flow, is not scatter, and neither is an offset in proportion to unequal weights. Eight values +-1/8
+// without correlation have the standard error sqrt(8/7)/sqrt(8) with seven degrees of freedom.
+TEST(Populations, ADifferenceOfItsFlowIsNoScatterOfASingleRunsWindows)
 {
   FitData data;
   data.runs = {8};
@@ -444,9 +446,10 @@ TEST(Populations, OfASingleRunHowItsFlowDiffersIsNoScatterOfItsWindows)
   EXPECT_NEAR(error_of(0.3 * weight).error, 0, 1e-15);
 }
 
-// Two runs of each of four flows; their values are -3, -1, 1, 3 times `apart`, plus and minus 1 within
-// a flow: mean squares 2 x 20 apart^2/f between and 8/4 within. Where composition has taken two of the
-// three degrees, one is left, and Fisher's quantile of 5 % with 1 and 4 degrees is 7.7086, not 6.5914.
+// Two runs of each of four flows. The values of flows are -3, -1, 1, 3 times `apart`, runs differ from
+// them by plus and minus 1: mean squares 2 x 20 apart^2/f between flows and 8/4 within. If composition
+// explains two of the three degrees of freedom, one is left, and Fisher's quantile of 5 % with 1 and 4
+// degrees is 7.7086, not 6.5914.
 TEST(Populations, FishersTestCountsTheDegreesThatCompositionHasTaken)
 {
   FitData data;

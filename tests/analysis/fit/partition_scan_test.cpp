@@ -38,7 +38,8 @@ TEST(PartitionScan, EveryShareIsTheSingleFitOfItsRuleInBlocksOfTheScan)
   }
 }
 
-/// 120 windows in which contacts of large grains remember for ten windows and mixed ones nothing.
+/// 120 windows in which contacts between large grains are correlated over ten windows and mixed
+/// contacts are not.
 FitData of_two_memories()
 {
   synthetic::Ar1 slow(0.8), quick(0);
@@ -55,9 +56,9 @@ FitData of_two_memories()
   return read({stress_table(rows)});
 }
 
-// The block length changes with the share; were each share to take its own, the band would jump
-// there. With one for all it changes as smoothly as B: a step of 0.002 moves its half-width, which
-// halves over some tenths, by less than two per cent.
+// The best block length depends on the share; with an own length for each share, the band would
+// jump where it changes. With one length for all shares the band is as smooth as B: a step of 0.002
+// changes its half-width, which halves over some tenths, by less than two per cent.
 TEST(PartitionScan, TheBandOfBIsSmooth)
 {
   const auto data = of_two_memories();
@@ -77,8 +78,8 @@ TEST(PartitionScan, TheBandOfBIsSmooth)
   EXPECT_GT(own_jump, 2 * jump);
 }
 
-// The neutral model gives d(psi_L)/dp = phi_L phi_S (1 + r)/(phi_L + r phi_S), whose sum over that of
-// phi_L phi_S is the slope of B.
+// The neutral model gives d(psi_L)/dp = phi_L phi_S (1 + r)/(phi_L + r phi_S); its sum divided by the
+// sum of phi_L phi_S is the slope of B.
 TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
 {
   for (const double r : {2.0, 3.0}) {
@@ -96,8 +97,8 @@ TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
   }
 }
 
-// Counted at the grains' centres (--assign grain), a layer's small grains lose other contacts than its
-// large ones win.
+// If contacts count in the layer of the grain's centre (--assign grain), the contacts that small
+// grains of a layer lose are not the ones that its large grains gain.
 TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
 {
   auto data = neutral_data(0.1);
@@ -138,7 +139,7 @@ TEST(PartitionScan, TheIntervalOfTheZeroHoldsIt)
   EXPECT_GT(scan.line.p_zero.estimate().high, scan.line.p_zero.value);
 }
 
-// dB = dB/dp dp: the interval of the zero is that of B there.
+// dB = dB/dp dp: the interval of the zero times the slope is the interval of B there.
 TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
 {
   const auto data = neutral_data(0.2);
@@ -152,7 +153,7 @@ TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
       0.01);
 }
 
-/// 48 windows of seven layers of neutral contacts; each kind of contact scatters by two per cent.
+/// 48 windows of seven layers of neutral contacts; each type of contact scatters by two per cent.
 FitData scattered_neutral_data(synthetic::Ar1& noise)
 {
   std::vector<synthetic::TableRow> rows;
@@ -170,7 +171,7 @@ FitData scattered_neutral_data(synthetic::Ar1& noise)
   return read({stress_table(rows)});
 }
 
-// Three standard deviations of 300 trials about 93 and 97 %.
+// Three standard deviations of 300 trials below 93 % and above 97 %.
 TEST(PartitionScan, TheIntervalsOfZeroAndSlopeHoldTheTruth)
 {
   const auto known = neutral_data(0);

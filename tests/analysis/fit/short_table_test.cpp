@@ -9,7 +9,7 @@
 namespace grseg {
 namespace {
 
-/// A fit with these numbers, whatever they would come from.
+/// A fit with these results.
 RuleFit fit(const PartitionRule& rule, const Estimate& b, double share)
 {
   RuleFit fit;
@@ -59,7 +59,7 @@ TEST(ShortTable, RoundsToThreeDecimalsAndLeavesADashWhereThereIsNoNumber)
   EXPECT_NE(text.find("\ndrop                                -      -  sums over "),
             std::string::npos);
   expect_line(report(),
-              "B = 0 where the large grain gets p* = 0.648 [0.647, 0.649] of every mixed contact; "
+              "B = 0 if the large grain gets p* = 0.648 [0.647, 0.649] of every mixed contact; "
               "dB/dp = 2.100");
 }
 

@@ -11,7 +11,8 @@
 namespace grseg {
 namespace {
 
-/// Twenty windows: 3 and 1, then nine pairs of +1 and -1, whose neighbours are anticorrelated: a time of 1.
+/// Twenty windows: 3 and 1, then nine pairs of +1 and -1. Neighbours are anticorrelated, so the
+/// autocorrelation time is 1.
 Eigen::VectorXd alternating()
 {
   Eigen::VectorXd series(20);
@@ -20,15 +21,15 @@ Eigen::VectorXd alternating()
   return series;
 }
 
-// The first tenth is 2 above the last half, whose ten windows have the variance 10/9; the error of the
-// difference is the root of 10/9 (1/2 + 1/10), with nine degrees of freedom.
+// The mean of the first tenth is 2 above that of the last half, whose ten windows have the variance
+// 10/9. The error of the difference is the root of 10/9 (1/2 + 1/10), with nine degrees of freedom.
 TEST(StartOfFlow, IsComparedWithTheLastHalfByStudentsT)
 {
   const auto found = start_of_flow(alternating(), {20});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->excess, 2, 1e-14);
   EXPECT_NEAR(found->chance, 2 * gsl_cdf_tdist_Q(2 / std::sqrt(10. / 9 * 0.6), 9), 1e-12);
-  EXPECT_EQ(found->leave_out, 0);  // 3.6 %: not rare enough
+  EXPECT_EQ(found->leave_out, 0);  // 3.6 % is not rare enough
 }
 
 TEST(StartOfFlow, IsLeftOutByTheLeastPartThatLeavesASteadyRest)
@@ -41,14 +42,14 @@ TEST(StartOfFlow, IsLeftOutByTheLeastPartThatLeavesASteadyRest)
   EXPECT_NEAR(found->leave_out, 0.2, 1e-12);
 }
 
-TEST(StartOfFlow, IsNotToldFromFewWindows)
+TEST(StartOfFlow, IsNotFoundInFewWindows)
 {
   EXPECT_FALSE(start_of_flow(alternating().head(9), {9}));
-  EXPECT_FALSE(start_of_flow(Eigen::VectorXd::LinSpaced(40, 0, 1), {40}));  // depend on each other
+  EXPECT_FALSE(start_of_flow(Eigen::VectorXd::LinSpaced(40, 0, 1), {40}));  // correlated
 }
 
-// Where nothing starts it shows in 2.5 % of the cases, of correlated windows and of several runs; up to
-// 3.5 standard deviations of a share of so many trials.
+// In a steady series a start is found in 2.5 % of the trials, also for correlated windows and several
+// runs, up to 3.5 standard deviations of a share of so many trials.
 TEST(StartOfFlow, ShowsInASteadySeriesAsOftenAsItSays)
 {
   constexpr int trials = 1000;
@@ -65,7 +66,7 @@ TEST(StartOfFlow, ShowsInASteadySeriesAsOftenAsItSays)
   }
 }
 
-// Contacts that bear nothing across the flow in the first 4 of 40 windows, as of grains that begin to move.
+// Contacts carry no shear stress in the first 4 of 40 windows, as if grains began to move.
 TEST(StartOfFlow, IsSeenInTheShearStressOfAFlowThatGathersSpeed)
 {
   auto rows = synthetic::neutral_rows(0.1, 2, 40);

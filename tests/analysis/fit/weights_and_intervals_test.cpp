@@ -23,7 +23,7 @@ using synthetic::separate_sums;
 using synthetic::stress_table;
 using synthetic::TableRow;
 
-/// +1 or -1: 40 windows in an order in which correlations of neighbours cancel to a few per cent.
+/// +1 or -1: 40 windows, ordered so that correlations of neighbours cancel to a few per cent.
 double sign(int window)
 {
   constexpr std::string_view order = "+-++---+-+--+++-";
@@ -36,9 +36,9 @@ double half_width(const Estimate& interval)
 }
 
 // Neutral contacts of r = 2 at phi_L = 0.2: mixed contacts carry m = 3 phi_L phi_S/(phi_L + 2 phi_S) =
-// 4/15 of the stress, so that dB/dp = m/(phi_L phi_S) = 5/3. Where contacts of large grains alone add a
-// small part e to the whole stress, dB/dp is smaller by 5/3 e, psi_L larger by (1 - psi_L) e, and
-// p* smaller by that over m, 3 e.
+// 4/15 of the stress, so dB/dp = m/(phi_L phi_S) = 5/3. If additional contacts between large grains
+// carry a small part e of the total stress, dB/dp is smaller by 5/3 e, psi_L larger by (1 - psi_L) e,
+// and p* smaller by this over m, 3 e.
 TEST(IntervalByHand, TheSlopeOfBFallsWhereOtherContactsGrow)
 {
   std::vector<TableRow> rows;
@@ -55,7 +55,7 @@ TEST(IntervalByHand, TheSlopeOfBFallsWhereOtherContactsGrow)
               1. / 3 * 5. / 3, 1e-3);
 }
 
-// The same of four runs, in each of which sigma^L is larger or smaller throughout.
+// The same with four runs; in each, sigma^L is larger or smaller throughout.
 TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatOfEachRun)
 {
   std::vector<Table> tables;
@@ -75,10 +75,10 @@ TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatOfEachRun)
               1. / 3 * 5. / 3, 2e-3);
 }
 
-// Four runs of one flow and one of another. The first add 3, 1, -1 and -3 (their mean is 0): 4/3 of
-// 20. Of the other only the noise of its twelve windows counts, whatever it adds: they are worth 12/5 (up
-// three, down three: an autocorrelation time of 5), less one fitted mean, 12 x 5 x 2.4/1.4.
-TEST(IntervalByHand, RunsOfAFlowCountByWhatTheyAddAndASingleOneByTheNoiseOfItsWindows)
+// Four runs of one flow and one run of another. The first four contribute 3, 1, -1 and -3 (mean 0): 4/3
+// of 20. For the single run only the noise of its twelve windows counts, not its value. They are worth
+// 12/5 windows (up three, down three: autocorrelation time 5), less one fitted mean: 12 x 5 x 2.4/1.4.
+TEST(IntervalByHand, RunsOfAFlowCountByTheirScatterAndASingleOneByTheNoiseOfItsWindows)
 {
   FitData data;
   data.runs = {1, 1, 1, 1, 12};
@@ -98,9 +98,9 @@ TEST(WeightByHand, TheOverallCompositionOfARunIsThatOfItsFrames)
   EXPECT_NEAR(find_flows(read_tables, "auto")[0].phi_large(), 0.3, 1e-12);
 }
 
-// While a layer becomes richer in large grains (psi_L - phi_L)/(phi_L phi_S) grows with phi_L, at the
-// share 0.65 from below 0 to above. That follows from the composition and is no noise of the zero, nor
-// of B there, of all windows together.
+// While a layer becomes richer in large grains, (psi_L - phi_L)/(phi_L phi_S) grows with phi_L; at the
+// share 0.65 from below 0 to above. This trend follows from the composition: it is noise neither of
+// the zero nor of B over all windows.
 TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
 {
   const auto phi_at = [](int k) { return 0.3 + 0.4 * k / 47; };
@@ -129,8 +129,8 @@ TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
   EXPECT_LT(fit.high.B - fit.low.B, 1e-9);
 }
 
-// Layers of one composition and one number of frames: B is the mean of (psi_L - 0.2)/0.16 +- d, with
-// Student's interval of 40 independent windows, t = 2.0227.
+// Layers with one composition and one number of frames: B is the mean of (psi_L - 0.2)/0.16 +- d,
+// with Student's interval for 40 independent windows, t = 2.0227.
 TEST(IntervalByHand, OfBWhereAllLayersAreAlikeIsThatOfAMean)
 {
   std::vector<TableRow> rows;
@@ -147,14 +147,14 @@ TEST(IntervalByHand, OfBWhereAllLayersAreAlikeIsThatOfAMean)
   EXPECT_NEAR((fit.high.B - fit.low.B) / 2 / expected, 1, 0.05);
 }
 
-/// Up for eight windows, down for eight.
+/// +1 for eight windows, then -1 for eight.
 double slow(int window)
 {
   return window / 8 % 2 == 0 ? 1 : -1;
 }
 
-// -ln s of windows of one composition and weight is a plain mean, of -0.1 and 0.1 in turn for eight windows
-// each: drawn in blocks as a series would be.
+// -ln s of windows with one composition and weight is a plain mean of blocks of eight values -0.1 and 0.1
+// in turn: drawn in blocks like any series.
 TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
 {
   std::vector<TableRow> rows;
@@ -177,8 +177,9 @@ TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
   EXPECT_NEAR(fit.at(Population::windows).low, fit.low.B, 1e-14);
 }
 
-// A layer with few large grains changes slowly, an even one by half as much from window to window. Weighted
-// by grains the latter counts, by frames psi of both: 0.005 fast + 0.02 slow.
+// A layer with few large grains changes slowly; an even layer changes by half as much, from window to
+// window. With weights by grain number the even layer counts, with weights by frames psi of both counts:
+// 0.005 fast + 0.02 slow.
 TEST(IntervalByHand, TheSumsSayHowDependentTheirOwnWindowsAre)
 {
   std::vector<FitPoint> points;
@@ -200,7 +201,7 @@ TEST(IntervalByHand, TheSumsSayHowDependentTheirOwnWindowsAre)
   const double time = autocorrelation_time(sums, {96});
   ASSERT_GT(time, 3);
   EXPECT_NEAR(dependence(windows, {96}, true).time, time, 1e-9);
-  EXPECT_LT(dependence(windows, {96}, false).time, 0.8 * time);  // of the logarithms alone
+  EXPECT_LT(dependence(windows, {96}, false).time, 0.8 * time);  // time of the logarithms alone
 }
 
 ContactSums<2> with_contents(double small, double large, double volume)
@@ -220,7 +221,7 @@ TEST(FilterByHand, CompositionsAtBothEndsOfTheRangeAreUsed)
   EXPECT_EQ(data.count.outside_ratio, 1u);
 }
 
-// Most layers of a tall cell are empty; the bed's own solid fraction is the measure.
+// Most layers of a tall cell are empty; the reference is the solid fraction of the bed alone.
 TEST(FilterByHand, ThinLayersAreLeftOutHoweverManyAreEmpty)
 {
   std::vector<TableRow> rows(3, {0, 1, 9, with_contents(4, 4, 10)});
@@ -233,8 +234,9 @@ TEST(FilterByHand, ThinLayersAreLeftOutHoweverManyAreEmpty)
   EXPECT_EQ(data.count.below_solid, 1u);
 }
 
-// Three species of sizes 1, 2 and 4 whose stresses over phi are as 1 : e^0.1 : e^0.4. The least-squares
-// line through the origin of b = 0.1, 0.4 and 0.3 over ln 2, ln 4 and ln 2, with weights 4, 1 and 1.
+// Three species of sizes 1, 2 and 4 whose stresses over phi are as 1 : e^0.1 : e^0.4. The size exponent
+// is the slope of the least-squares line through the origin of b = 0.1, 0.4 and 0.3 over ln 2, ln 4 and
+// ln 2, with weights 4, 1 and 1.
 TEST(WeightByHand, TheSizeExponentIsALineThroughTheOriginOverTheLogarithmOfSizes)
 {
   FitData data;

@@ -21,7 +21,7 @@ constexpr double w = 0.4;
 const std::vector<Kernel> kernels{
     {KernelShape::gauss, w}, {KernelShape::lucy, w}, {KernelShape::heaviside, w}};
 
-/// Integral of f from a to b by GSL, piece by piece between `kinks` where f is not smooth.
+/// Integral of f from a to b by GSL, split at `kinks`, where f is not smooth.
 double quadrature(const std::function<double(double)>& f, double a, double b,
                   std::vector<double> kinks)
 {
@@ -31,7 +31,7 @@ double quadrature(const std::function<double(double)>& f, double a, double b,
       gsl_integration_workspace_free(space);
     }
   };
-  gsl_set_error_handler_off();  // it stops where no more digits can be had
+  gsl_set_error_handler_off();  // GSL would otherwise abort if no more digits can be reached
   const std::unique_ptr<gsl_integration_workspace, Free> space(
       gsl_integration_workspace_alloc(200));
   const auto call = [](double x, void* g) {
@@ -54,10 +54,10 @@ double quadrature(const std::function<double(double)>& f, double a, double b,
   return sum;
 }
 
-/// Where psi is not smooth, and on the way its digits fall off.
+/// Points at which psi is not smooth, and others at which its value becomes tiny.
 const std::vector<double> kinks{-8 * w, -4 * w, -w, 0, w, 4 * w, 8 * w};
 
-/// Lengths of branches from none to far longer than the kernel, m.
+/// Lengths of branches, from zero to much longer than the kernel, m.
 const std::vector<double> lengths{0,     1e-300, 1e-16, 1e-9, 1e-5, 0.00399,
                                   0.004, 0.05,   0.4,   1,    3,    20};
 
@@ -72,7 +72,7 @@ TEST(CoarseGraining, KernelsAreTheFunctionsOfTheirNames)
   EXPECT_EQ(kernels[2].value(-0.4001), 0);
 }
 
-// Width is the standard deviation of the Gaussian and half the support of the others.
+// The width is the standard deviation of the Gaussian and half the support of the other kernels.
 TEST(CoarseGraining, KernelsHaveIntegralOneAndTheStandardDeviationsTheySay)
 {
   const std::vector<double> deviations{w, std::sqrt(2.0 / 21) * w, w / std::sqrt(3)};
@@ -98,7 +98,7 @@ TEST(CoarseGraining, WhatLiesBelowIsTheIntegralOfTheKernel)
     }
 }
 
-// Relative to the integral itself, in the far tails too.
+// The tolerance is relative to the integral, also far in the tails.
 TEST(CoarseGraining, TheLineIntegralIsThatOfQuadrature)
 {
   for (const auto& psi : kernels)
@@ -129,8 +129,8 @@ TEST(CoarseGraining, ThePartOfABranchBelowAHeightIsTheIntegralOfTheLineIntegral)
       }
 }
 
-// No step where the formula changes from a difference to three points, nor as a branch becomes
-// level.
+// There is no jump where the formula switches from a difference to three points, nor as a branch
+// becomes horizontal.
 TEST(CoarseGraining, LineIntegralsAreSmoothInTheLengthOfTheBranch)
 {
   for (const auto& psi : {kernels[0], kernels[1]})
@@ -144,7 +144,7 @@ TEST(CoarseGraining, LineIntegralsAreSmoothInTheLengthOfTheBranch)
     }
 }
 
-// Goldhirsch (2010): the branch integral is what makes stress and force density balance.
+// Goldhirsch (2010): with the branch integral, the divergence of the stress balances the force density.
 TEST(CoarseGraining, TheStressOfABranchDivergesIntoTheKernelsOfItsEnds)
 {
   for (const auto& psi : kernels)
@@ -191,13 +191,13 @@ TEST(CoarseGraining, TheShareOfALayerIsTheIntegralOfTheFieldOverIt)
       for (std::size_t n = 1; n + 1 < shares.size(); ++n) {
         const double exact = quadrature([&](double y) { return psi.along(y, 3.2 + length, 3.2); },
                                         layers.bottom(n), layers.top(n), all_kinks);
-        // The last layer that a Gaussian reaches gets the 1e-17 that are left beyond.
+        // The last layer within reach of a Gaussian also gets the remaining 1e-17.
         EXPECT_NEAR(shares[n], exact, 1e-12 * exact + 1e-17) << n << " " << length;
       }
     }
 }
 
-// The Heaviside kernel of a layer's half thickness, at the layer's middle, is the layer itself.
+// A Heaviside kernel of half a layer's thickness, at the layer's middle, covers exactly the layer.
 TEST(CoarseGraining, HeavisideAtTheMiddleOfALayerIsTheBranchsShareOfTheLayer)
 {
   const Layers layers(0.8, 1);
@@ -224,7 +224,7 @@ TEST(CoarseGraining, TheFirstLayerTakesWhatIsBelowItAndTheLastWhatIsAbove)
   const Kernel psi(KernelShape::gauss, 0.5);
   std::vector<double> shares(3);
   share_kernel(Layers(1, 1), psi, 0, 0, 3, [&](std::size_t n, double s) { shares[n] += s; });
-  EXPECT_NEAR(shares[0], std::erfc(-std::numbers::sqrt2) / 2, 1e-15);  // up to two widths above
+  EXPECT_NEAR(shares[0], std::erfc(-std::numbers::sqrt2) / 2, 1e-15);  // it ends two widths above
   share_kernel(Layers(1, 1), psi, 9, 9, 3, [&](std::size_t n, double s) { shares[n] += s; });
   EXPECT_NEAR(shares[2], 1 + std::erfc(2 * std::numbers::sqrt2) / 2, 1e-15);
 }

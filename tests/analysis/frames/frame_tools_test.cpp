@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tools that sum over frames, and those that read their tables, as programs, on a run known by
-// heart.
+// Tools that sum over frames and tools that read their tables, run as programs on a run whose
+// numbers are known.
 #include "formats/cli/table.hpp"
 #include "formats/trajectory/digest.hpp"
 #include "formats/trajectory/reader.hpp"
@@ -72,7 +72,7 @@ TEST_F(FrameTools, RowsOfAllToolsHaveTheSameKeys)
     }
 }
 
-// The mixed contact lies at y = 10 mm, that with the base at 0.
+// The mixed contact is at y = 10 mm, the contact with the base at 0.
 TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
 {
   const auto t = table(stress, "--layer 6mm");
@@ -93,7 +93,7 @@ TEST_F(FrameTools, StressHasTheSumsOfTheThreeGrains)
               1e-18);
 }
 
-// Four times the force in a quarter of the step leaves the velocity in the middle what it is.
+// Four times the force in a quarter of the step gives the same velocity in the middle.
 TEST_F(FrameTools, TheMiddleOfAStepInPartsIsThatOfItsLastPart)
 {
   const auto whole = table(kinetic, "--velocity middle --mean layer");
@@ -105,7 +105,7 @@ TEST_F(FrameTools, TheMiddleOfAStepInPartsIsThatOfItsLastPart)
     for (int k = 0; k < 60; ++k) {
       auto frame = three_grains::frame(k);
       for (auto& force : frame.force) force *= 4;
-      for (auto& force : frame.contacts.force) force *= 4;  // torques
+      for (auto& force : frame.contacts.force) force *= 4;  // torques scale, too
       std::vector<double> observables(description.observables.size(), 0);
       observables.back() = step / 4;
       writer.append(frame, observables);
@@ -126,8 +126,8 @@ TEST_F(FrameTools, TheMiddleOfAStepInPartsIsThatOfItsLastPart)
   EXPECT_TRUE(differs) << "the force has an effect";
 }
 
-// The three grains lie straight below the axis, where outward is down and clockwise is up-slope:
-// the mixed contact 12.5 mm from it, that with the boundary 22.5 mm.
+// The three grains lie vertically below the axis, where outward is down and clockwise is up-slope.
+// The mixed contact is 12.5 mm from the axis, the contact with the boundary 22.5 mm.
 TEST_F(FrameTools, AnnuliLieAboutTheAxisOfADrum)
 {
   auto description = three_grains::description();
@@ -151,7 +151,7 @@ TEST_F(FrameTools, AnnuliLieAboutTheAxisOfADrum)
   EXPECT_NEAR(cell(t, 3, "A_Lb_yy"), 5e-6, 1e-18);
   EXPECT_EQ(t.header_text("bins"), "radius 0.050000000000000003 0.022499999999999999");
   const auto k = table(kinetic, "--bins radius:50mm,22.5mm --layer 6mm");
-  EXPECT_NEAR(cell(k, 1, "u"), -0.3, 1e-15);  // of the small grain, 10 mm from the axis
+  EXPECT_NEAR(cell(k, 1, "u"), -0.3, 1e-15);  // velocity of the small grain, 10 mm from the axis
   EXPECT_NEAR(cell(k, 1, "v"), 0.4, 1e-15);
 }
 
@@ -172,7 +172,7 @@ TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
   EXPECT_NEAR(cell(c, 2, "MS_yy"), 1.5e-6, 1e-18);
 }
 
-// The mixed contact reaches from y = 5 mm to 12.5 mm: half of the Gaussian's 8.75 mm.
+// The branch of the mixed contact reaches from y = 5 mm to 12.5 mm; its middle is 8.75 mm.
 TEST_F(FrameTools, CoarseGrainingSpreadsContactsAndGrainsByTheSameKernel)
 {
   const auto t = table(stress, "--layer 8.75mm --assign gauss --kernel-width 0.5dS");
@@ -276,12 +276,13 @@ TEST_F(FrameTools, ASummaryThatCannotBeMadeSaysSoAndIsDone)
   EXPECT_EQ(json["settings"]["min_solid"], "0.5");
 }
 
-TEST_F(FrameTools, TheMeanOfALayerTellsWhatItAdds)
+TEST_F(FrameTools, TheShearThatALayersMeanAddsIsReported)
 {
   const auto outcome = run(kinetic + " " + file + " --mean layer 2>&1 >/dev/null");
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_NE(outcome.out.find("grseg-kinetic: 100 % of K_xx about the layers' means is shear"),
-            std::string::npos);
+  EXPECT_NE(
+      outcome.out.find("grseg-kinetic: 100 % of K_xx about the layers' means is due to shear"),
+      std::string::npos);
   EXPECT_EQ(run(kinetic + " " + file + " --mean instant 2>&1 >/dev/null").out, "");
 }
 
@@ -306,7 +307,7 @@ TEST_F(FrameTools, DerivedNumbersFollowFromTheSumsAlone)
   ASSERT_EQ(normal.rows.size(), 2u);
   EXPECT_EQ(cell(normal, 0, "frames"), 50);
   EXPECT_NEAR(cell(normal, 0, "f_L"), (2e-4 + 1e-3) / 2, 1e-18);
-  EXPECT_NEAR(cell(normal, 0, "error"), 0, 1e-14);  // sizes without spread
+  EXPECT_NEAR(cell(normal, 0, "error"), 0, 1e-14);  // all sizes of a species are equal
 }
 
 TEST_F(FrameTools, SumsPassThroughAPipe)
@@ -320,18 +321,18 @@ TEST_F(FrameTools, SumsPassThroughAPipe)
     EXPECT_EQ(cell(stored, row, "Pi"), cell(piped, row, "Pi"));
 }
 
-// One mixed contact and one with the base: each is the mean of its own pair type.
+// There is one mixed contact and one with the base: each is the mean of its pair type.
 TEST_F(FrameTools, ForcesAreDistributedByTheirMean)
 {
   const auto t = table(forces, "--unit type --begin 0 --end 1.25");
   ASSERT_EQ(t.rows.size(), 2 * 101u);
   EXPECT_EQ(cell(t, 10, "x0"), 1);
-  EXPECT_EQ(cell(t, 10, "n_LS") + cell(t, 9, "n_LS"), 1);  // round-off may fall below the mean
+  EXPECT_EQ(cell(t, 10, "n_LS") + cell(t, 9, "n_LS"), 1);  // round-off may shift the mean
   EXPECT_EQ(cell(t, 10, "n_Lb") + cell(t, 9, "n_Lb"), 1);
   EXPECT_EQ(cell(t, 0, "n_LS"), 0);
 }
 
-TEST_F(FrameTools, TheHeaderTellsWhatLaterToolsNeed)
+TEST_F(FrameTools, TheHeaderHasTheNumbersThatLaterToolsNeed)
 {
   const auto t = table(stress, "--partition power:2 --base-part half --volume solid");
   EXPECT_EQ(t.header_number("small_diameter"), 0.005);
@@ -360,7 +361,7 @@ TEST_F(FrameTools, TheSameInputGivesTheSameBytesToFileAndPipe)
   EXPECT_EQ(stored.rows, piped.rows);
 }
 
-// The sample is a true run of 200 frames: 50 in a window make 13 blocks.
+// The sample is a real run of 200 frames: the 50 frames of a window make 13 blocks.
 TEST_F(FrameTools, AnyNumberOfThreadsGivesTheSameBytes)
 {
   const std::string sample = std::string(GRSEG_SAMPLE) + " --window 5";
@@ -373,8 +374,7 @@ TEST_F(FrameTools, AnyNumberOfThreadsGivesTheSameBytes)
   }
 }
 
-// Frame 9 holds something that is not a number, and in frame 30, which other threads reach first, a
-// grain is lost.
+// Frame 9 contains a NaN. In frame 30, which other threads read first, a grain is missing.
 TEST_F(FrameTools, TheFirstDamagedFrameIsNamedWhoeverReadsIt)
 {
   {
@@ -401,12 +401,12 @@ TEST_F(FrameTools, TheFirstDamagedFrameIsNamedWhoeverReadsIt)
       EXPECT_EQ(lost.code, 1);
       EXPECT_EQ(
           lost.out.substr(lost.out.find(": at")),
-          ": at t = 1.50005 s a grain is 1e+06 m above the base, more than 100000 layers; is it "
-          "lost, or are the layers too thin?\n");
+          ": at t = 1.50005 s a grain is 1e+06 m above the base, more than 100000 layers; either "
+          "the grain is lost, or the layers are too thin\n");
     }
 }
 
-TEST_F(FrameTools, APresetIsRecordedAndWhatIsGivenGoesBefore)
+TEST_F(FrameTools, APresetIsRecordedAndOptionsTakePrecedence)
 {
   EXPECT_EQ(table(stress).header_text("preset"), "none");
   const auto paper = table(stress, "--preset paper"), rigorous = table(stress, "--preset rigorous"),

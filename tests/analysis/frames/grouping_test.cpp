@@ -14,7 +14,7 @@
 namespace grseg {
 namespace {
 
-/// Spheres of given radii in species of given numbers, and one boundary grain.
+/// Run of spheres with these radii and species, and one boundary grain.
 TrajectoryReader run_of(const std::string& path, const SpeciesList& species,
                         const std::vector<int>& numbers, const std::vector<double>& radii)
 {
@@ -48,7 +48,7 @@ std::vector<int> numbers(const GroupedGrains& result)
 const SpeciesList three{{"fine", 2}, {"AM", 4}, {"SE", 6}};
 
 struct Grouping : TestInFolder {
-  /// Diameters 2, 4, 4.4, 6 and 2.2.
+  /// Groups spheres of diameters 2, 4, 4.4, 6 and 2.2.
   GroupedGrains grouped(const GroupingOptions& options) const
   {
     return group_grains(run_of(path("run.h5"), three, {0, 1, 1, 2, 0}, {1, 2, 2.2, 3, 1.1}),
@@ -78,7 +78,7 @@ TEST_F(Grouping, MergesSpeciesByNumberOrNameInOrderOfSize)
   EXPECT_EQ(numbers(result), (std::vector{0, 1, 1, 1, 0, -1}));
   ASSERT_EQ(result.species.size(), 2u);
   EXPECT_EQ(result.species[0].name, "dust");
-  EXPECT_EQ(result.species[0].diameter, 2);  // the nominal one of a single species
+  EXPECT_EQ(result.species[0].diameter, 2);  // nominal diameter of a single species
   const auto power = [](double exponent) {
     return std::pow(4, exponent) + std::pow(4.4, exponent) + std::pow(6, exponent);
   };
@@ -92,7 +92,7 @@ TEST_F(Grouping, OfClassesHaveEqualVolumes)
   EXPECT_EQ(numbers(grouped({.classes = 1})), (std::vector{0, 0, 0, 0, 0, -1}));
 }
 
-/// How many grains each class of such a run holds, from the smallest.
+/// Number of grains in each class of a run, from the smallest class.
 std::vector<std::size_t> grains_of_classes(const std::string& path,
                                            const std::vector<double>& radii, int classes)
 {
@@ -104,7 +104,7 @@ std::vector<std::size_t> grains_of_classes(const std::string& path,
   return counts;
 }
 
-// 28 % of the volume in 28 small grains, 40 % in five, 32 % in one; of diameters equal to round-off.
+// 28 % of the volume is in 28 small grains, 40 % in five, 32 % in one; equal diameters differ by round-off.
 TEST_F(Grouping, OfAsManyClassesAsSizesHasOneSizeInEach)
 {
   std::vector<double> radii(28, 0.5);
@@ -115,13 +115,13 @@ TEST_F(Grouping, OfAsManyClassesAsSizesHasOneSizeInEach)
   EXPECT_EQ(grains_of_classes(path("sizes2.h5"), radii, 2), (std::vector<std::size_t>{33, 1}));
 }
 
-// Up to the second size lie 48 % of the volume, up to the third 58 %.
+// The grains up to the second size have 48 % of the volume, up to the third 58 %.
 TEST_F(Grouping, ByClassesDividesAtTheSizeNearestToItsShare)
 {
-  std::vector<double> radii(8, 0.5);                // 8 of 100
-  radii.insert(radii.end(), 5, 1.0);                // 40
-  radii.insert(radii.end(), 1, std::cbrt(10) / 2);  // 10, of diameter 2.15
-  radii.insert(radii.end(), 1, std::cbrt(42) / 2);  // 42
+  std::vector<double> radii(8, 0.5);                // volume 8 of 100
+  radii.insert(radii.end(), 5, 1.0);                // volume 40
+  radii.insert(radii.end(), 1, std::cbrt(10) / 2);  // volume 10, diameter 2.15
+  radii.insert(radii.end(), 1, std::cbrt(42) / 2);  // volume 42
   EXPECT_EQ(grains_of_classes(path("nearest.h5"), radii, 2), (std::vector<std::size_t>{13, 2}));
 }
 
@@ -143,10 +143,10 @@ TEST_F(Grouping, ThatCannotBeIsRefusedInOneSentence)
   says({.groups = {"A=1,2", "B=2,3"}}, "species 2 is in two groups");
   says({.groups = {"A=1,4"}}, "no species '4'; it has 1 fine, 2 AM, 3 SE");
   says({.groups = {"A+B=1,2,3"}}, "NAME=LIST");
-  says({.groups = {"b=1,2,3"}}, "'b' stands for boundary grains");
+  says({.groups = {"b=1,2,3"}}, "'b' denotes boundary grains");
   says({.groups = {"A=1", "A=2,3"}}, "given twice");
   says({.groups = {"A=1,2,3"}, .classes = 2}, "exclude each other");
-  says({.classes = 9}, "have 5 different diameters");
+  says({.classes = 9}, "have only 5 different diameters");
   says({.classes = -1}, "must be 1 to 100");
   says({.edges = "4m,2m"}, "increasing order");
   says({.edges = "1m,4m"}, "no mobile grain belongs to c1");

@@ -33,8 +33,8 @@ TEST(HeightRange, RefusesASingleHeightAndWhatIsNotALength)
     EXPECT_THROW(check_heights(wrong), UsageError) << wrong;
 }
 
-// A bed from -0.02 m on: four layers of 0.8, one of 0.6 in the mean, spray of 0.1. It would end at
-// -0.02 + 0.02 (4 + 0.75 + 0.125) = 0.0775 m; 4 d_S are 0.02 m.
+// A bed that starts at -0.02 m: four layers of solid fraction 0.8, one of 0.6 on average, spray of
+// 0.1. Its surface is at -0.02 + 0.02 (4 + 0.75 + 0.125) = 0.0775 m; 4 d_S are 0.02 m.
 TEST(HeightRange, InsideLeavesFourSmallDiametersAtTheBaseAndUnderTheSurface)
 {
   std::vector<LayerSolid> layers;
@@ -51,7 +51,7 @@ TEST(HeightRange, InsideLeavesFourSmallDiametersAtTheBaseAndUnderTheSurface)
   EXPECT_FALSE(parse_heights("inside", units, {}).holds(0, 0.02));
 }
 
-// 35 * 0.02 is larger than 0.7 in the last digit.
+// In floating point, 35 * 0.02 exceeds 0.7 in the last digit.
 TEST(HeightRange, HoldsLayersThatReachItsEndsExactlyAndTheWholeBed)
 {
   const HeightRange range{0.02, 0.7};

@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The sooner it is begun, the later it ends.
+/// Waits, longer for smaller k, so that work that starts first ends last.
 void dawdle(std::size_t k)
 {
   std::this_thread::sleep_for((3 - k % 4) * 300us);
@@ -39,13 +39,13 @@ TEST(InOrder, ResultsAreTakenInOrderWhoeverIsFirst)
   }
 }
 
-TEST(InOrder, NothingToDoIsDone)
+TEST(InOrder, NoWorkIsAllowed)
 {
   in_order(
       3, 0, [](std::size_t k) { return k; }, [](std::size_t) { FAIL(); });
 }
 
-/// Counts how many of it there are.
+/// Counts how many objects of this type exist.
 struct Counted {
   static std::atomic<int> alive, most;
   Counted()
@@ -60,8 +60,8 @@ struct Counted {
 };
 std::atomic<int> Counted::alive = 0, Counted::most = 0;
 
-// Results that wait for their turn keep their thread waiting, however slow the first is.
-TEST(InOrder, NoMoreResultsThanThreadsAreHeld)
+// A thread whose result waits for its turn waits, too, however slow the first work is.
+TEST(InOrder, AtMostAsManyResultsAsThreadsAreStored)
 {
   Counted::most = 0;
   in_order(
@@ -77,7 +77,7 @@ TEST(InOrder, NoMoreResultsThanThreadsAreHeld)
   EXPECT_LE(Counted::most, 3);
 }
 
-/// What in_order throws.
+/// Message of the exception that in_order() throws.
 template <class Work, class Take>
 std::string trouble(int threads, const Work& work, const Take& take)
 {
@@ -89,7 +89,7 @@ std::string trouble(int threads, const Work& work, const Take& take)
   return "none";
 }
 
-TEST(InOrder, TheTroubleOfTheFirstComesOutAndNothingAfterItIsTaken)
+TEST(InOrder, TheFirstErrorIsThrownAndNoLaterResultIsUsed)
 {
   for (const int threads : {1, 2, 3, 7, 40}) {
     std::vector<std::size_t> taken;
@@ -103,7 +103,7 @@ TEST(InOrder, TheTroubleOfTheFirstComesOutAndNothingAfterItIsTaken)
   }
 }
 
-TEST(InOrder, TroubleInTakingComesOutToo)
+TEST(InOrder, AnErrorInTheUseOfAResultIsThrownToo)
 {
   const auto take = [](std::size_t k) {
     if (k >= 3) throw std::runtime_error(std::to_string(k));

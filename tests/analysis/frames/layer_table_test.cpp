@@ -74,7 +74,7 @@ TEST(LayerTable, UnitsAreThoseOfGrseg)
   table.columns[5] = "V[mm^2]";
   EXPECT_EQ(refusal(table), "t.tsv: column 'V[mm^2]' should be 'V[m^2]'; units are not converted");
   table.columns[5] = "V";
-  EXPECT_EQ(refusal(table), "");  // made by hand
+  EXPECT_EQ(refusal(table), "");  // a table made by hand is accepted
   table.header = {{"program", "grseg-stress 0.1.0"}};
   EXPECT_EQ(refusal(table), "t.tsv: column 'V' should be 'V[m^2]'; units are not converted");
 }

@@ -24,7 +24,7 @@ TEST(Layers, HalfADiscLiesBelowItsCentre)
   EXPECT_NEAR(disc_area_below(2, -7), 0, 1e-15);
 }
 
-// A chord at half the radius is seen under 120 degrees: sector pi/3 less triangle sqrt(3)/4.
+// A chord at half the radius spans 120 degrees: the cap is the sector pi/3 minus the triangle sqrt(3)/4.
 TEST(Layers, TheCapBeyondHalfARadiusIsSectorLessTriangle)
 {
   EXPECT_NEAR(disc_area_below(1, -0.5), pi / 3 - std::sqrt(3) / 4, 1e-15);
@@ -123,7 +123,7 @@ TEST(Layers, InSpaceHaveTheirAreaTimesTheirThickness)
   EXPECT_THROW(Layers(0.5, 3, 0.0), UsageError);
   const auto round = Layers::annuli(0.5, 3, {1, 1}, 7);
   EXPECT_DOUBLE_EQ(round.height<3>({4, 5, 99}), 5);
-  // Outward is (0.6, 0.8, 0); round is clockwise, and z stays.
+  // Outward is (0.6, 0.8, 0); the second axis is clockwise, and z does not change.
   const Vec3 turned = round.turned<3>({0.6, 0.8, 0.5}, {4, 5, 99});
   EXPECT_NEAR((turned - Vec3(0, 1, 0.5)).norm(), 0, 1e-15);
 }
@@ -173,7 +173,7 @@ TEST(Annuli, ADiscAndACircleShareTheirTwoSegments)
   EXPECT_DOUBLE_EQ(disc_area_within(1, 0.5, 2), pi);
   EXPECT_DOUBLE_EQ(disc_area_within(2, 0.5, 1), pi);
   EXPECT_EQ(disc_area_within(1, 3, 1.5), 0);
-  // A large circle through the centre halves the disc, less what its curvature y^2/(2 R) takes.
+  // A large circle through the centre halves the disc, except for its curvature y^2/(2 R).
   EXPECT_NEAR(disc_area_within(1, 1e4, 1e4), pi / 2 - 1 / 3e4, 1e-10);
 }
 
@@ -214,9 +214,9 @@ TEST(Annuli, AcrossIsOutwardAndAlongIsClockwise)
 {
   const auto annuli = Layers::annuli(1, 10, {5, 5});
   EXPECT_EQ(annuli.height<2>({8, 9}), 5);
-  EXPECT_EQ(annuli.turned<2>({2, 3}, {5, 7}), Vec2(2, 3));    // above the axis: as over a base
-  EXPECT_EQ(annuli.turned<2>({2, 3}, {5, 1}), Vec2(-2, -3));  // below it
-  EXPECT_EQ(annuli.turned<2>({2, 3}, {6, 5}), Vec2(-3, 2));   // on its right
+  EXPECT_EQ(annuli.turned<2>({2, 3}, {5, 7}), Vec2(2, 3));    // above the axis, as over a base
+  EXPECT_EQ(annuli.turned<2>({2, 3}, {5, 1}), Vec2(-2, -3));  // below the axis
+  EXPECT_EQ(annuli.turned<2>({2, 3}, {6, 5}), Vec2(-3, 2));   // right of the axis
   EXPECT_EQ(Layers(1, 10).turned<2>({2, 3}, {6, 5}), Vec2(2, 3));
 }
 

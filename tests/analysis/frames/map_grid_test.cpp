@@ -86,7 +86,7 @@ TEST(MapGrid, GrainsBelowZeroHaveCellsAndEdgesAreMultiplesOfTheSide)
   EXPECT_EQ(x.edge(0), -3);
   EXPECT_EQ(x.edge(x.cells), 4);
   EXPECT_EQ(y.edge(0), -2);
-  EXPECT_EQ(y.edge(y.cells), 3);  // where the large grain ends, so that no empty row follows
+  EXPECT_EQ(y.edge(y.cells), 3);  // the large grain ends at this edge; no empty row follows
   EXPECT_EQ(grid.at<2>({-2.25, -0.75}), 1 * x.cells + 0);
   EXPECT_EQ(grid.at<2>({3, 2}), 4 * x.cells + 6);
   EXPECT_EQ(grid.volume(0), 1);
@@ -114,7 +114,7 @@ TEST(MapGrid, InThreeDimensionsVolumesAreThoseOfWhatIsSummedOver)
   const auto xy = two.grid(MapPlane::xy, 2), xz = two.grid(MapPlane::xz, 3);
   EXPECT_EQ(xy.axes[0].cells, 5u);  // 0 to 10
   EXPECT_EQ(xy.volume(0), 2 * 2 * 20);
-  EXPECT_EQ(xz.depth, 2 * (1 + 5) / 2.0);  // the bed is twice as high as its centre
+  EXPECT_EQ(xz.depth, 2 * (1 + 5) / 2.0);  // the bed is twice as high as its centre of mass
   EXPECT_EQ(xz.axes[1].cells, 7u);
   EXPECT_NEAR(xz.volume(0), 3 * 20 / 7.0 * 6, 1e-12);
   EXPECT_EQ(xz.at<3>({4, 100, 6}), 2 * xz.axes[0].cells + 1);
@@ -126,7 +126,7 @@ TEST(MapGrid, CellsOfRzAreRings)
   const auto rz = two.grid(MapPlane::rz, 2, Vec2{5, 4});
   const auto& r = rz.axes[0];
   EXPECT_EQ(r.edge(0), 0);
-  EXPECT_EQ(r.cells, 3u);  // the farther sphere ends 5 from the axis
+  EXPECT_EQ(r.cells, 3u);  // the surface of the farther sphere is 5 from the axis
   for (std::size_t n = 0; n < 3; ++n)
     EXPECT_NEAR(rz.volume(n),
                 std::numbers::pi * (r.edge(n + 1) * r.edge(n + 1) - r.edge(n) * r.edge(n)) * 2,

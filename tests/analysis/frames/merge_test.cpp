@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames that are summed up apart and put together, by every accumulator.
+// Sums over parts of the frames, merged afterwards, for every accumulator.
 #include "analysis/frames/composition.hpp"
 #include "analysis/micro/structure_sums.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
@@ -16,8 +16,8 @@ namespace {
 
 const Layers layers(1, 10);
 
-/// 60 grains, one of them boundary, up to a height that differs from frame to frame, and contacts
-/// of any pair, with some on the base.
+/// 60 grains, one of them boundary, up to a height that differs between frames, and contacts
+/// between arbitrary pairs, some with the base.
 std::vector<Packing> frames(int count)
 {
   std::mt19937 random(3);
@@ -39,7 +39,7 @@ std::vector<Packing> frames(int count)
   return all;
 }
 
-/// All that an accumulator has to tell.
+/// All results of an accumulator, as numbers.
 std::vector<double> numbers(const Composition<2>& areas)
 {
   std::vector<double> all;
@@ -83,7 +83,7 @@ template <class Sums>
 void expect_parts_make_the_whole(const Sums& empty)
 {
   const auto scenes = frames(7);
-  auto parts = empty;  // blocks of 2, 4 and 1, the first of less layers than the second
+  auto parts = empty;  // blocks of 2, 4 and 1 frames; the first has fewer layers than the second
   parts.merge(sum(empty, scenes, 0, 2));
   parts.merge(sum(empty, scenes, 2, 6));
   parts.merge(sum(empty, scenes, 6, 7));

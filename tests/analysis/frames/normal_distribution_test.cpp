@@ -15,8 +15,8 @@ long double density(long double u)
   return std::exp(-u * u / 2) / std::sqrt(2 * std::numbers::pi_v<long double>);
 }
 
-/// 1/(v + 2/(v + 3/(v + ...))), so that Phi(-v) = phi(v)/(v + fraction) for v > 0 (Abramowitz &
-/// Stegun 1964, 26.2.14). No digits are lost.
+/// The continued fraction 1/(v + 2/(v + 3/(v + ...))), with Phi(-v) = phi(v)/(v + fraction) for v >
+/// 0 (Abramowitz & Stegun 1964, 26.2.14). It loses no digits.
 long double fraction(long double v)
 {
   long double rest = 0;
@@ -34,13 +34,13 @@ long double exact_primitive(long double u)
   return u * exact_below(u) + density(u);
 }
 
-/// As the header says.
+/// Error bound that the header states.
 double bound(double u)
 {
   return u < -10 ? 1e-19 * u * u * u * u : 1e-15;
 }
 
-// Points of the series, halfway between them and elsewhere, and beyond their end.
+// Arguments: points of the series, midpoints, other numbers, and numbers beyond the end of the series.
 TEST(NormalDistribution, IsThatOfTheErrorFunctionInItsTailsToo)
 {
   for (double u = -30; u <= 9; u += 1.0 / 512)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which tables are of one run, by what their headers say, and how their windows count.
+// Recognition of tables of one run by their headers, and the order of their windows.
 #include "analysis/frames/runs_of_tables.hpp"
 
 #include "formats/cli/provenance.hpp"
@@ -18,7 +18,7 @@ const std::string longer = "grseg-sim --restart run.chk --duration 3 -o more.h5 
 const std::string twin = "grseg-sim --restart run.chk --perturb 1e-6 -o twin.h5 (from t = 2 s)";
 const std::string bed = "grains 213, sizes 206, crc32 0a1b2c3d";
 
-/// A table of one run, with a window for each pair of times; `area` is that of its grains.
+/// A table of one run with a window for each pair of times; `area` is the area of its grains.
 Table table_of(const std::string& name, const Header& source, const std::vector<Span>& windows,
                double area = 1)
 {
@@ -32,7 +32,7 @@ Table table_of(const std::string& name, const Header& source, const std::vector<
   return table;
 }
 
-/// Of a run whose history is this, made by a tool.
+/// Header that a tool writes for a run with this history.
 Header source_of(const std::string& input, const std::vector<std::string>& history,
                  const std::string& bed_line = "")
 {
@@ -74,8 +74,8 @@ TEST(Kinship, TheSameSeedAndSceneAreTheSameMotionWhateverTheHistory)
             Kinship::same_motion);
 }
 
-// Where all grains of a species are alike, another seed has the same radii.
-TEST(Kinship, GrainsOfFewSizesTellNothingWithoutASeed)
+// If all grains of a species are equal, another seed has the same radii.
+TEST(Kinship, GrainsOfFewSizesProveNothingWithoutASeed)
 {
   const std::string alike = "grains 213, sizes 2, crc32 0a1b2c3d";
   EXPECT_EQ(
@@ -98,8 +98,8 @@ TEST(Kinship, OtherGrainsAreAnotherRunUnlessTheyComeAndGo)
             Kinship::untold);
 }
 
-// The same command may have run in a folder for each seed.
-TEST(Kinship, EqualCommandsOfOlderTablesTellNothing)
+// The same command may have run in different folders with different seeds.
+TEST(Kinship, EqualCommandsOfOlderTablesProveNothing)
 {
   EXPECT_EQ(kin(source_of("1", {sim}), source_of("2", {sim})), Kinship::untold);
   EXPECT_EQ(kin(source_of("1", {sim}), source_of("1", {sim})), Kinship::same_motion);
@@ -130,7 +130,7 @@ TEST(RunsOfTables, AreNumberedInTheOrderOfTheirTables)
   EXPECT_EQ(runs.doubt(tables), "");
 }
 
-// a and c are kin only by b, which continues the one and goes on in the other.
+// a and c belong to one run only because of b, which continues a and is continued by c.
 TEST(RunsOfTables, AreJoinedByTablesBetweenThem)
 {
   const std::vector<Table> tables{table_of("a", source_of("1", {sim}), {{0, 1}}),
@@ -160,14 +160,14 @@ TEST(RunsOfTables, OneTimeOfOneMotionCountsOnce)
     ADD_FAILURE() << "taken";
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what())
-                  .find("a and b both hold the time from 0 s of the same run (bed: "),
+                  .find("a and b both contain the time from 0 s of the same run (bed: "),
               std::string::npos)
         << error.what();
   }
   EXPECT_EQ(find_runs({a, twin_of_it}).run, (std::vector<std::size_t>{0, 0}));
 }
 
-// Two parts of an archive, or two runs that began from one list of radii.
+// Either two parts of an archive, or two runs that began from one list of radii.
 TEST(RunsOfTables, ImportsOfTheSameGrainsAreOneRunUnlessTheyHoldTheSameTime)
 {
   const auto at = [](const std::string& input, double begin, double area) {
@@ -199,7 +199,7 @@ TEST(WindowLine, HoldsTheWindowsOfSeveralTablesInOrderOfTime)
   EXPECT_EQ(line.count, 4u);
 }
 
-// Of a twin whose windows begin elsewhere, each falls to the one that began before it.
+// The windows of a twin begin at other times; each belongs to the window that began before it.
 TEST(WindowLine, WindowsThatOverlapAreOneObservation)
 {
   const auto a = table_of("a", {}, {{0, 1}, {1, 2}}),
@@ -218,7 +218,7 @@ TEST(WindowLine, RoundOffIsNoOverlap)
 TEST(WindowLine, WindowsBetweenWhichNothingMovesAreOneObservation)
 {
   auto table = table_of("still", {}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}});
-  for (const std::size_t row : {2, 3}) {  // as row 1, but for round-off
+  for (const std::size_t row : {2, 3}) {  // equal to row 1 up to round-off
     table.rows[row][6] = table.rows[1][6] * (1 + 1e-9);
     table.rows[row][7] = table.rows[1][7] * (1 - 1e-9);
   }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double h = 0.01, g = 9;
 
-/// The frame in the middle of its step.
+/// The frame with velocities in the middle of its step.
 template <int D>
 Frame<D> middle(const PackingOf<D>& packing, bool turning = true)
 {
@@ -19,7 +19,7 @@ Frame<D> middle(const PackingOf<D>& packing, bool turning = true)
   return frame;
 }
 
-// Let go at t = 0, v = -g t at any time; the step from t to t + h ends with -g (t + h).
+// The grain is released at t = 0: v = -g t at any time, and the step from t to t + h ends with -g (t + h).
 TEST(VelocityInStep, AGrainThatFallsHasTheVelocityOfTheMiddleOfTheStep)
 {
   for (const double t : {0.0, 0.37}) {
@@ -32,14 +32,14 @@ TEST(VelocityInStep, AGrainThatFallsHasTheVelocityOfTheMiddleOfTheStep)
   }
 }
 
-// Down with u before the step and up with e u after it: -(1 - e) u/2 on the average.
+// Velocity -u before the step and e u after it: -(1 - e) u/2 on average.
 TEST(VelocityInStep, AGrainThatBouncesHasTheMeanOfBeforeAndAfter)
 {
   constexpr double u = 4;
   for (const double e : {0.0, 0.5, 1.0}) {
     Packing packing;
     packing.grain(Species::small, 0.1, {1, 0.1}, {0, e * u});
-    const double force = packing.grains.mass[0] * (1 + e) * u / h;  // its weight included
+    const double force = packing.grains.mass[0] * (1 + e) * u / h;  // net, includes weight
     packing.frame.force = {{0, force}};
     packing.wall_contact(0, 0, {0, force + packing.grains.mass[0] * g}, {0, 0.1});
     EXPECT_TRUE(same(middle(packing).velocity[0], Vec2(0, -(1 - e) * u / 2), 1e-14));
@@ -47,7 +47,7 @@ TEST(VelocityInStep, AGrainThatBouncesHasTheMeanOfBeforeAndAfter)
 }
 
 // A disc that meets the floor with the rim velocity u_t = v_t + r w and sticks loses u_t/3 of v_t
-// and 2 u_t/3 of r w; a sphere 2 u_t/7 and 5 u_t/7. Half of that in the middle.
+// and 2 u_t/3 of r w; a sphere loses 2 u_t/7 and 5 u_t/7. In the middle of the step, half is lost.
 TEST(VelocityInStep, AGrainThatSticksHasLostHalfOfTheSpinThatItLoses)
 {
   constexpr double r = 0.1, v_t = 3, w = 10, u_t = v_t + r * w;
@@ -57,10 +57,10 @@ TEST(VelocityInStep, AGrainThatSticksHasLostHalfOfTheSpinThatItLoses)
   disc.wall_contact(0, 0, disc.frame.force[0] + Vec2(0, 50), {0, r});
   EXPECT_TRUE(same(middle(disc).velocity[0], Vec2(v_t - u_t / 6, 0)));
   EXPECT_NEAR(middle(disc).angular_velocity[0], w - u_t / (3 * r), 1e-13);
-  // Where grains do not turn their spins are as they are.
+  // If grains do not rotate, spins are not changed.
   EXPECT_EQ(middle(disc, false).angular_velocity[0], disc.frame.angular_velocity[0]);
 
-  // On the floor y = 0 the rim of a sphere moves by v_x + r w_z and v_z - r w_x.
+  // On the floor y = 0, the velocity of a sphere's lowest point is v_x + r w_z and v_z - r w_x.
   PackingOf<3> sphere;
   const double w_z = w - 5 * u_t / (7 * r), w_x = -w_z;
   sphere.grain(Species::small, r, {1, r, 1}, {v_t - 2 * u_t / 7, 0, v_t - 2 * u_t / 7},
@@ -74,7 +74,8 @@ TEST(VelocityInStep, AGrainThatSticksHasLostHalfOfTheSpinThatItLoses)
   EXPECT_TRUE(same(frame.angular_velocity[0], Vec3(-half, 6, half), 1e-13));
 }
 
-// Two discs that rub turn the same way, each by its own radius over its own moment of inertia.
+// Two discs that rub change their spins with the same sign, each by its own radius over its own
+// moment of inertia.
 TEST(VelocityInStep, BothGrainsOfAContactAreTurnedByIt)
 {
   Packing pair;
@@ -86,8 +87,8 @@ TEST(VelocityInStep, BothGrainsOfAContactAreTurnedByIt)
   const auto frame = middle(pair);
   for (const std::size_t grain : {0u, 1u}) {
     const double radius = pair.grains.radius[grain], mass = pair.grains.mass[grain];
-    // The force up on the left grain acts at its right end: counter-clockwise, as that down on the
-    // right one at its left end. The spin before was less.
+    // The upward force on the left grain acts at its right end: counter-clockwise, like the
+    // downward force at the left end of the right grain. The spins before were smaller.
     const double gained = h * radius * push / (mass * radius * radius / 2);
     EXPECT_NEAR(frame.angular_velocity[grain], 1 - gained / 2, 1e-13);
   }

@@ -10,7 +10,7 @@
 namespace grseg {
 namespace {
 
-/// Frames every 0.05 s, the first one at frame number `first`.
+/// A run with a frame every 0.05 s; the first one has the frame number `first`.
 RunTimes run_of(std::int64_t frames, double step = 1e-4, std::int64_t first = 0)
 {
   RunTimes run{{}, step, 0.05};
@@ -19,7 +19,8 @@ RunTimes run_of(std::int64_t frames, double step = 1e-4, std::int64_t first = 0)
   return run;
 }
 
-// 0.05 and 1e-4 are no binary fractions: in seconds, frames would slip over the edges.
+// 0.05 and 1e-4 are not binary fractions: if times were compared in seconds, frames would fall into
+// wrong windows.
 TEST(Windows, EveryWindowHoldsTheSameNumberOfFrames)
 {
   for (const double step : {1e-4, 2e-4, 0.05 / 221, 0.05 / 443}) {
@@ -95,7 +96,7 @@ TEST(Windows, ASingleFrameStandsForOneInterval)
   EXPECT_THROW(cut_into_windows(run_of(1), {.length = 0.1}), RunError);
 }
 
-/// Frames at these numbers of steps of 1 ms; the scene says nothing of their interval.
+/// Frames at these step numbers, steps of 1 ms; the scene does not state the frame interval.
 RunTimes run_at(std::vector<std::int64_t> steps)
 {
   return {std::move(steps), 1e-3, 0};
@@ -116,7 +117,7 @@ std::vector<double> begins(const RunTimes& run, double length)
   return begins;
 }
 
-// 2 s, every 0.1 s three frames one step apart.
+// 2 s long: every 0.1 s three frames in consecutive steps.
 TEST(Windows, BurstsStandForTheTimeToTheNextBurst)
 {
   std::vector<std::int64_t> steps;
@@ -140,7 +141,7 @@ TEST(Windows, TwoBurstsStandForTheIntervalOfTheScene)
   EXPECT_EQ(begins(run, 0.1), (std::vector{0.0, 0.1}));
 }
 
-// Every 0.05 s, then every 0.01 s, and one frame a second later, which stands for 0.05 s.
+// A frame every 0.05 s, then every 0.01 s, and one a second later, which represents 0.05 s.
 TEST(Windows, AFrameBehindAHoleFillsNoWindow)
 {
   auto steps = every(50, 0, 500);
@@ -161,7 +162,7 @@ TEST(Windows, AnExtraFrameAtTheEndTakesNoWindowAway)
   EXPECT_EQ(begins(run_at(steps), 0.2).size(), 5u);
 }
 
-// Every 0.01 s for 10 s; 30 frames are missing.
+// A frame every 0.01 s for 10 s; 30 frames are missing.
 TEST(Windows, MayHaveAHoleOfATenth)
 {
   auto steps = every(10, 0, 3000);
@@ -187,7 +188,7 @@ TEST(Windows, AllIsOneWindowOverTheFramesUsed)
   EXPECT_DOUBLE_EQ(cut_into_windows(run_of(50, 1e-4, 10), {all_frames, 0.0}).list[0].begin, 0.5);
 }
 
-// 0.1, 0.2 and 0.4 are no binary fractions, and 2.2 - 2 is not 0.2.
+// 0.1, 0.2 and 0.4 are not binary fractions, and 2.2 - 2 is not 0.2.
 TEST(Windows, TheirLengthIsTheOneThatWasGiven)
 {
   for (const double length : {0.1, 0.2, 0.4, 0.7})
@@ -205,25 +206,24 @@ std::string sentence_of(const RunTimes& run, const WindowSettings& settings)
   return "";
 }
 
-TEST(Windows, ARefusalSaysWhatFits)
+TEST(Windows, AMessageProposesALengthThatFits)
 {
-  EXPECT_EQ(
-      sentence_of(run_of(10), {}),
-      "no window of 1.25 s is filled: frames used reach from 0 s to 0.5 s; choose --window 0.5 "
-      "or --window all");
+  EXPECT_EQ(sentence_of(run_of(10), {}),
+            "no window of 1.25 s is filled by frames between 0 s and 0.5 s; choose --window 0.5 "
+            "or --window all");
   EXPECT_EQ(sentence_of(run_of(10), {.length = 0.04}),
             "--window 0.04 s is shorter than the 0.05 s between the frames used; choose --window "
             "0.05 or longer, or --window all");
-  EXPECT_EQ(
-      sentence_of(run_of(10, 1e-4, 10), {.begin = 0}),
-      "no window of 1.25 s is filled: frames used reach from 0 s to 1 s; choose --window all, "
-      "or another --begin and --end");
+  EXPECT_EQ(sentence_of(run_of(10, 1e-4, 10), {.begin = 0}),
+            "no window of 1.25 s is filled by frames between 0 s and 1 s; choose --window all, "
+            "or another --begin and --end");
   EXPECT_EQ(sentence_of(run_of(10), {.begin = 2}),
-            "no frame lies between --begin and --end; the run goes from 0 s to 0.45 s");
+            "no frame lies between --begin and --end; the run has frames from 0 s to 0.45 s");
 }
 
-// Three steps of 0.1234567 s are not 0.37 s, nor 0.3704 s.
-TEST(Windows, WhatARefusalNamesIsTaken)
+// Three steps of 0.1234567 s are neither 0.37 s nor 0.3704 s; the length that the message proposes
+// is accepted.
+TEST(Windows, TheLengthThatAMessageProposesIsAccepted)
 {
   RunTimes run{{0, 1, 2}, 0.1234567, 0};
   const auto sentence = sentence_of(run, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums over the cells of a map.
+// Sums over grains and contacts in the cells of a map.
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/stress/kinetic_stress.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Cells of the plane xy in a period of 10, over heights 0 to 10.
+/// Layers object with cells of the plane xy: a period of 10 along x, heights 0 to 10.
 Layers map_of(double side_x, double side_y)
 {
   return Layers::map(
@@ -26,12 +26,12 @@ Layers map_of(double side_x, double side_y)
       std::nullopt);
 }
 
-/// Grains and contacts anywhere.
+/// Grains and contacts at random positions.
 Packing disorder()
 {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(0, 10);
-  std::uniform_real_distribution<double> height(0, 9.5);  // so that no grain reaches over 10
+  std::uniform_real_distribution<double> height(0, 9.5);  // so that no grain reaches beyond 10
   Packing packing;
   for (int g = 0; g < 60; ++g)
     packing.grain(g % 2 == 0 ? Species::small : Species::large, g % 2 == 0 ? 0.2 : 0.4,
@@ -109,7 +109,7 @@ TEST(Map, ARowOfCellsHoldsTheGrainsOfItsLayer)
   }
 }
 
-// Fluctuations about the cells' means and the motion of the means make all of the kinetic energy.
+// Fluctuations about the cells' means plus the motion of the means make up the total kinetic energy.
 TEST(Map, FluctuationsAndMeanFlowOfCellsMakeTheEnergyOfTheGrains)
 {
   const auto packing = disorder();
@@ -137,7 +137,7 @@ TEST(Map, AUniformBlockGivesAUniformMap)
   Composition<2> composition(map, GrainArea::centre);
   composition.add(packing.grains, packing.frame);
   ASSERT_EQ(stress.layers(), 25u);
-  for (std::size_t cell = 5; cell < 25; ++cell) {  // nothing lies under the lowest grains
+  for (std::size_t cell = 5; cell < 25; ++cell) {  // there is nothing below the lowest grains
     auto sums = stress.mean(cell).sums;
     sums.volume = map.volume(cell);
     sums.content = composition.mean(cell);
@@ -155,7 +155,7 @@ TEST(Map, AUniformBlockGivesAUniformMap)
   }
 }
 
-// Two streams side by side in one layer: all of their motion is the mean flow of their cells.
+// Two streams side by side in one layer: all their motion is mean flow of their cells.
 TEST(Map, StreamsSideBySideAreFlowNotFluctuation)
 {
   Packing packing;
@@ -180,14 +180,14 @@ TEST(Map, TheGranularTemperatureIsTheMeanSquarePerComponent)
   EXPECT_NEAR(flow.at(0).value, (9 + 16) / 2.0, 1e-13);
 }
 
-// The branch crosses the end of the cell, and so the contact point lies beyond it.
+// The branch crosses the end of the period, and so the contact point is in the periodic image of the cell.
 TEST(Map, AContactAcrossThePeriodCountsWhereItsPointComesInAgain)
 {
   Packing packing;
   const auto left = packing.grain(Species::small, 0.5, {0.25, 1.5});
   const auto right = packing.grain(Species::small, 0.5, {9.25, 1.5});
   packing.image_contact(right, left, {-2, 0}, {-1, 0});  // touching at 9.75
-  packing.image_contact(left, right, {2, 0}, {1, 0});    // the same, at -0.25
+  packing.image_contact(left, right, {2, 0}, {1, 0});    // the same contact, at -0.25
   const auto stress = stress_in(map_of(0.5, 1), packing);
   EXPECT_TRUE(same(stress.mean(20 + 19).sums.of(OwnSum::inside, 0), dyad({4, 0}, {1, 0})));
 }
@@ -202,8 +202,8 @@ TEST(Map, AGrainAtAnEdgeCountsOnceInTheCellBehindIt)
     EXPECT_EQ(composition.mean(cell)[0], cell == 3 * 5 + 2 ? pi * 0.25 : 0) << cell;
 }
 
-// A ring of spheres, each pressing on the next: at every contact force and branch run round, so that
-// all components but the first vanish; across is none.
+// A ring of spheres, each pressing on the next one. At every contact, force and branch are along the
+// circumference, so that all stress components but the first vanish; there is none across.
 TEST(Map, ARingUnderHoopStressIsOneCellOfRz)
 {
   constexpr std::size_t n = 12;

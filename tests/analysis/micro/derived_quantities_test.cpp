@@ -110,7 +110,7 @@ TEST(DerivedQuantities, FrictionAndStrengthAreSharesOfTheContacts)
   EXPECT_NEAR(value(cells, "sliding_LS"), 0.25, 1e-15);
   EXPECT_NEAR(value(cells, "sliding_all"), 0.25 * 4 / 9, 1e-15);
   EXPECT_NEAR(value(cells, "strong_LS"), 0.5, 1e-15);
-  // SS : LS : LL = 4 : 4 : 1, of which 0, 2 and 1 are strong.
+  // Contacts SS : LS : LL = 4 : 4 : 1, of which 0, 2 and 1 are strong.
   EXPECT_NEAR(value(cells, "share_of_strong_LS"), 2.0 / 3, 1e-14);
   EXPECT_NEAR(value(cells, "share_of_weak_LS"), 2.0 / 6, 1e-14);
   EXPECT_NEAR(value(cells, "strong_all"), 3.0 / 9, 1e-14);

@@ -22,7 +22,7 @@ struct SpaceContacts {
   double number = 0, force = 0;
   Tensor3 stress = Tensor3::Zero();
 
-  /// `weight` contacts of one direction.
+  /// Adds `weight` contacts with normal n.
   void add(const Vec3& n, double f_n, const Vec3& f_t = Vec3::Zero(), double weight = 1)
   {
     FabricSums<3> one;
@@ -42,8 +42,8 @@ struct SpaceContacts {
   }
 };
 
-/// Calls use(n, weight) with directions and weights that integrate polynomials of n up to the
-/// fifteenth degree over the sphere exactly.
+/// Calls use(n, weight) with directions and weights that integrate polynomials in n up to degree
+/// fifteen exactly over the sphere.
 template <class Use>
 void for_each_direction(const Use& use)
 {
@@ -60,7 +60,7 @@ void for_each_direction(const Use& use)
   }
 }
 
-/// The distribution of Ouadfel & Rothenburg with these deviators.
+/// Contacts and forces distributed as in Ouadfel & Rothenburg, with these deviators.
 SpaceContacts second_order(const Tensor3& c, const Tensor3& n, const Tensor3& t, double f_0)
 {
   SpaceContacts contacts;
@@ -73,7 +73,8 @@ SpaceContacts second_order(const Tensor3& c, const Tensor3& n, const Tensor3& t,
   return contacts;
 }
 
-/// A deviator with these principal values on axes turned by the angles (degrees) about z and x.
+/// Deviator with these principal values (the third follows), on axes turned by the angles (degrees)
+/// about z and x.
 Tensor3 deviator_on(double first, double second, double about_z, double about_x)
 {
   const Eigen::Matrix3d turn = (Eigen::AngleAxisd(about_z * pi / 180, Vec3::UnitZ()) *
@@ -98,8 +99,8 @@ TEST(FabricInSpace, ContactsInAllDirectionsAlikeAreIsotropic)
   EXPECT_NEAR(contacts.stress_ratio(), 0, 1e-14);
 }
 
-// Six equal contacts: <n n> = I/3, so that all of q/p = (f_1 - f_2)/((f_1 + 2 f_2)/3) lies in the
-// normal forces: 15/2 of the deviator of (f_1, f_2, f_2)/(f_1 + 2 f_2).
+// Six equal contacts: <n n> = I/3, so q/p = (f_1 - f_2)/((f_1 + 2 f_2)/3) comes from the normal
+// forces alone: 15/2 of the deviator of (f_1, f_2, f_2)/(f_1 + 2 f_2).
 TEST(FabricInSpace, AnAxiallyLoadedCubicLatticeIsAnisotropicInItsNormalForcesAlone)
 {
   SpaceContacts contacts;
@@ -136,8 +137,8 @@ TEST(FabricInSpace, AKnownDistributionIsRecoveredWhateverItsSizeAndDirections)
   }
 }
 
-// Guo & Zhao (2013): chi^n and chi^t are means over directions of f_n n n and f_t n, taken from
-// contacts by dividing by 1 + n.c.n; f_0 = tr chi^n, a^n = 15/2 chi^n'/f_0, a^t = 15/3 chi^t'/f_0.
+// Guo & Zhao (2013): chi^n and chi^t are means over directions of f_n n n and f_t n. From contacts they are
+// computed with a division by 1 + n.c.n; f_0 = tr chi^n, a^n = 15/2 chi^n'/f_0, a^t = 15/3 chi^t'/f_0.
 TEST(FabricInSpace, TheForcesAnisotropiesAreThoseOfMeansOverDirections)
 {
   const Tensor3 c = deviator_on(0.5, -0.1, 40, 10), n = deviator_on(0.4, 0.1, 60, -20);
@@ -162,7 +163,7 @@ TEST(FabricInSpace, AnisotropiesMakeUpTheStressOfEquallyLongBranches)
   EXPECT_NEAR(contacts.anisotropy().stress_ratio(), contacts.stress_ratio(), 1e-12);
 }
 
-// Any contacts, not only of that form: the three expansions have their second moments.
+// Arbitrary contacts, not only that distribution: the three expansions have the same second moments.
 TEST(FabricInSpace, TheStressOfEquallyLongBranchesFollowsForAnyForces)
 {
   std::mt19937 random(3);

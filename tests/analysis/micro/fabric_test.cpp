@@ -17,13 +17,13 @@ Vec2 direction(double degrees)
   return {std::cos(degrees * degree), std::sin(degrees * degree)};
 }
 
-/// Contacts whose branches have length 1, by direction.
+/// Contacts with branches of length 1, by direction.
 struct Contacts {
   FabricSums<2> fabric;
   double number = 0, force = 0;
   Tensor2 stress = Tensor2::Zero();
 
-  /// `weight` contacts with normal at `degrees`.
+  /// Adds `weight` contacts whose normal is at `degrees`.
   void add(double degrees, double f_n, double f_t = 0, double weight = 1)
   {
     const Vec2 n = direction(degrees), t{-n.y(), n.x()};
@@ -55,7 +55,7 @@ TEST(Fabric, AHexagonalPackingOfEqualDiscsIsIsotropicInItsSecondMoment)
   EXPECT_NEAR(contacts.stress_ratio(), 0, 1e-15);
 }
 
-// q/p = (f_x - f_y)/(f_x + f_y), all of it in the normal forces.
+// q/p = (f_x - f_y)/(f_x + f_y) comes from the normal forces alone.
 TEST(Fabric, ABiaxiallyLoadedSquareLatticeIsAnisotropicInItsNormalForcesAlone)
 {
   Contacts contacts;

@@ -13,7 +13,7 @@ namespace {
 
 const Layers layers(2, 100);
 
-/// Chains of grains of radius 1 at the given height, pressed by the given normal forces.
+/// Adds chains of grains of radius 1 at the given height, pressed by the given normal forces.
 void chain(Packing& scene, double height, Species species, const std::vector<double>& forces)
 {
   auto before = scene.grain(species, 1, {1, height});
@@ -40,7 +40,7 @@ double cell(const std::vector<double>& row, const std::string& name)
       static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
 }
 
-/// Row of the bin that holds x.
+/// Row of the bin that contains x.
 std::vector<double> bin(const std::vector<std::vector<double>>& rows, double x)
 {
   for (const auto& row : rows)
@@ -62,7 +62,7 @@ TEST(ForceDistribution, EqualForcesLieInTheBinThatBeginsAtTheMean)
   EXPECT_TRUE(std::isnan(cell(bin(rows, 1), "P_LL")));
 }
 
-// Small grains bear 1 each and large ones 3: the mean of the layer is 2.
+// Contacts of small grains have the force 1, of large ones 3: the mean of the layer is 2.
 TEST(ForceDistribution, TheUnitIsTheMeanOfTheLayerOrOfThePairType)
 {
   Packing scene;

@@ -27,7 +27,7 @@ TEST(Pooling, WindowsArePooledAsMeansWeightedByTheirFrames)
   EXPECT_TRUE(rows[1].is_bed());
 }
 
-// The third layer of 7 mm, and of 1.4 times 5 mm.
+// Bounds of the third layer, computed with 7 mm and with 1.4 times 5 mm.
 TEST(Pooling, LayersThatDifferByRoundOffAreOne)
 {
   auto one = layer(0.5), other = layer(0.5);

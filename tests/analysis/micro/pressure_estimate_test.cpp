@@ -17,8 +17,8 @@ const Layers one_layer(20, 20);
 const ForceMeasure paper{ContactForce::modulus, ForceAverage::contacts};
 const ForceMeasure exact{ContactForce::normal, ForceAverage::ends};
 
-/// A chain of touching grains, each species of one size, with forces of all sizes and directions
-/// along it, that ends on the base.
+/// A chain of touching grains that ends on the base. Each species has one size; forces along the
+/// chain have different magnitudes and directions.
 StructureSums<2> chain(double tangential)
 {
   Packing scene;
@@ -41,7 +41,7 @@ StructureSums<2> chain(double tangential)
   return micro.mean();
 }
 
-// tr sigma^L = (1/V) sum over ends on L of r f_n.
+// tr sigma^L = (1/V) sum of r f_n over contact ends on L.
 TEST(PressureEstimate, OverEndsAndOfNormalForcesItIsThePressureOfEachSpecies)
 {
   const auto sums = chain(0.7);
@@ -58,7 +58,7 @@ TEST(PressureEstimate, ThePapersAverageOverContactsGivesTheSmallGrainsTooMuch)
 {
   const auto neutral = neutral_contacts(0.5, 2);
   auto sums = neutral;
-  // Mixed contacts that bear more than those between small grains, as in the flow.
+  // Mixed contacts with larger forces than contacts between small grains, as in the flow.
   auto& mixed = sums.pair[static_cast<std::size_t>(PairType::LS)];
   mixed.force *= 1.5;
   mixed.normal *= 1.5;
@@ -70,7 +70,7 @@ TEST(PressureEstimate, ThePapersAverageOverContactsGivesTheSmallGrainsTooMuch)
               1e-14);
 }
 
-// Tangential forces push no grain apart, but count in the modulus.
+// Tangential forces do not push grains apart, but they contribute to the magnitude of the force.
 TEST(PressureEstimate, TangentialForcesRaiseTheEstimateFromModuli)
 {
   const ForceMeasure moduli{ContactForce::modulus, ForceAverage::ends};

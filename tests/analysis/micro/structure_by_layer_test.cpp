@@ -23,8 +23,8 @@ StructureByLayer<2> micro_of(const Packing& scene, const Layers& layers, double 
   return micro;
 }
 
-/// A pyramid: two large grains on the base, one small between them on top, all contacts loaded but
-/// that between the large ones.
+/// A pyramid: two large grains on the base, and a small one between them on top. All contacts have
+/// a force except the one between the large grains.
 Packing pyramid()
 {
   Packing scene;
@@ -107,7 +107,7 @@ TEST(StructureByLayer, HeightsAreCentresOfMassAndTwiceTheMeanHeightOfTheArea)
   EXPECT_NEAR(heights.bed, 2 * (2 + 0.25 * top) / 2.25, 1e-14);
 }
 
-/// A hexagonal packing of equal large grains, periodic both ways.
+/// A hexagonal packing of equal large grains, periodic in both directions.
 Packing hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
 {
   Packing scene;
@@ -121,7 +121,7 @@ Packing hexagonal(const Vec2& along, const Vec2& up, const Vec2& down)
   };
   for (std::int32_t row = 0; row < rows; ++row)
     for (std::int32_t column = 0; column < columns; ++column) {
-      const std::int32_t right = column + row % 2;  // in the row above, to the right of this one
+      const std::int32_t right = column + row % 2;  // the upper right neighbour
       scene.image_contact(at(row, column), at(row, column + 1), -along, {-2, 0});
       scene.image_contact(at(row, column), at(row + 1, right), -up, {-1, -rise});
       scene.image_contact(at(row, column), at(row + 1, right - 1), -down, {1, -rise});
@@ -155,7 +155,7 @@ TEST(StructureByLayer, TheOrderOfTheGrainsInAContactDoesNotMatter)
     EXPECT_NEAR(a[k].value, b[k].value, 1e-15) << a[k].column;
 }
 
-/// Two grains side by side, the force on the right one from the left.
+/// Sums for two grains side by side; `force` acts on the right one from the left.
 StructureSums<2> pressed(const Vec2& force, double friction)
 {
   Packing scene;
@@ -180,7 +180,7 @@ TEST(StructureByLayer, WithoutAFrictionCoefficientSlidingIsUnknown)
   EXPECT_TRUE(std::isnan(pressed({2, 1}, std::nan("")).of(PairType::SS).sliding));
 }
 
-// Forces 1, 4 and 6 on three contacts of one layer: two are above their mean.
+// Forces 1, 4 and 6 on three contacts of one layer: two exceed the mean.
 TEST(StructureByLayer, AStrongContactBearsMoreThanTheMeanOfItsLayer)
 {
   Packing scene;
@@ -228,7 +228,7 @@ TEST(StructureByLayer, ResultsAreMeansPerFrame)
 TEST(StructureByLayer, MergedSumsAreThoseOfAllFrames)
 {
   const Packing scene = pyramid();
-  Packing lifted = scene;  // reaches into two layers more
+  Packing lifted = scene;  // reaches into two more layers
   lifted.frame.position[3].y() += 2;
   lifted.frame.contacts.force[0] = {0, 0};
   auto whole = micro_of(scene, unit_layers), parts = whole;
@@ -240,7 +240,7 @@ TEST(StructureByLayer, MergedSumsAreThoseOfAllFrames)
   EXPECT_EQ(parts.bed_row(), whole.bed_row());
 }
 
-// Column, value in the layer of the two large grains and value of the whole bed.
+// Column, its value in the layer of the two large grains, and its value for the whole bed.
 TEST(StructureByLayer, EveryNumberStandsUnderItsColumn)
 {
   const auto micro = micro_of(pyramid(), unit_layers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts between spheres.
+// Structure of contacts between spheres.
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/force_distribution.hpp"
@@ -43,8 +43,8 @@ std::map<std::string, double> named(const std::vector<Cell>& cells)
   return all;
 }
 
-/// Spheres that touch along a winding chain, each species of one size, with forces of all sizes and
-/// directions, that ends on the base.
+/// Spheres that touch along a winding chain which ends on the base. Each species has one size;
+/// forces have different magnitudes and directions.
 Spheres chain(double tangential)
 {
   Spheres scene;
@@ -66,7 +66,7 @@ Spheres chain(double tangential)
   return scene;
 }
 
-// tr sigma^nu = (1/V) sum over ends on nu of r f_n, and the volume of the grains is n pi/6 d^3.
+// tr sigma^nu = (1/V) sum of r f_n over contact ends on nu; the volume of n grains is n pi/6 d^3.
 TEST(StructureInSpace, OverEndsAndOfNormalForcesTheEstimateIsThePressureOfEachSpecies)
 {
   const auto sums = structure_of(chain(0.7), one_slab).mean();
@@ -78,8 +78,8 @@ TEST(StructureInSpace, OverEndsAndOfNormalForcesTheEstimateIsThePressureOfEachSp
   EXPECT_GT(estimate.small, 0.1);
 }
 
-// Six contacts of force f on each sphere of diameter d: sigma = (1/d^3) f d in each direction, and
-// in the volume of the grains 6/pi times that.
+// Six contacts of force f on each sphere of diameter d: sigma = (1/d^3) f d in each direction; per
+// volume of grains 6/pi times that.
 TEST(StructureInSpace, ACubicPackingHasSixContactsAndThePressureOfItsForces)
 {
   constexpr double f = 5;
@@ -124,7 +124,7 @@ TEST(StructureInSpace, NeutralContactsHaveNoSegregationAndTheNeutralShareOfDiscs
     }
 }
 
-/// Gravity 10 on a slope whose cosine is 0.8, with a part along z; density 3, friction 0.5.
+/// Gravity 10 on a slope whose cosine is 0.8, with a component along z; density 3, friction 0.5.
 const RunConstants run_of_spheres{1, 2, std::sqrt(20.0), -8, 3, 0.5, 4};
 
 // z_S = 4, z_L = 16, f = 1; rho g cos(theta) (H - y) d_S^2 = 3 8 (20 - 5) = 360, m_S g = 3 pi/6 10.
@@ -172,8 +172,8 @@ TEST(StructureInSpace, StressesAreThoseOfTheContactStressAtTheContactPoint)
   }
 }
 
-// A large sphere at the origin of a branch (-2/3, 1/3, 2/3) 1.5 to a small one: n = (-2, 1, 2)/3.
-// The force on the small one is 3 n and (2, 2, 1) across it.
+// A large sphere; its branch to a small one is (-2/3, 1/3, 2/3) 1.5: n = (-2, 1, 2)/3. The force on
+// the small one is 3 n plus (2, 2, 1) tangentially.
 TEST(StructureInSpace, EveryNumberStandsUnderItsColumn)
 {
   Spheres scene;
@@ -239,7 +239,7 @@ TEST(StructureInSpace, AContactSlidesWhicheverWayItsTangentialForcePoints)
   EXPECT_NEAR(pressed({2, 0.6, -0.8}, 0.6).mobilised, 0.5, 1e-15);
 }
 
-// Forces 1, 4 and 6, a third of each along z.
+// Forces 1, 4 and 6; a third of each is along z.
 TEST(StructureInSpace, NormalForcesAreDistributedAsInTwoDimensions)
 {
   Spheres scene;
@@ -268,7 +268,7 @@ TEST(StructureInSpace, TablesOfSumsAreReadAgainAndPooled)
   const auto sums = structure_of(chain(0.7), one_slab).mean();
   for (const double frames : {1., 3.}) {
     auto values = values_of((sums * frames).cells());
-    values.insert(values.end(), 3, std::nan(""));  // heights: those of the whole bed
+    values.insert(values.end(), 3, std::nan(""));  // heights of the whole bed
     table.rows.push_back(with_key({frames, frames + 1, 0, 20, frames, 1400}, values));
   }
   const auto rows = read_sums_rows<3>(table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a frame is drawn: discs, lines of contacts and where they are split, walls.
+// Shapes drawn of a frame: discs, lines of contacts and the points where they are split, walls.
 #include "analysis/render/drawing.hpp"
 
 #include "tests/analysis/grain_builder.hpp"
@@ -22,7 +22,7 @@ DrawingStyle style_of(std::optional<PartitionRule> rule)
   return style;
 }
 
-/// A cell of length 10 and height 5.
+/// View of a cell of length 10 and height 5.
 View view_of(bool periodic)
 {
   View view(Plane::xy, {.length_x = 10, .length_y = 5, .periodic_x = periodic});
@@ -35,8 +35,8 @@ Drawing draw(const Packing& packing, const DrawingStyle& style, bool periodic = 
   return draw_frame<2>(packing.grains, packing.frame, {}, {}, view_of(periodic), style);
 }
 
-/// A large grain of radius 1 and a small one of radius 0.5 that overlap by 0.1: the branch has length
-/// 1.4, of which 0.95 lie between the large grain's centre and the contact point.
+/// A large grain of radius 1 and a small one of radius 0.5 that overlap by 0.1. The branch has length
+/// 1.4, of which 0.95 is between the large grain's centre and the contact point.
 Packing mixed_pair(bool large_first)
 {
   Packing packing;
@@ -49,7 +49,7 @@ Packing mixed_pair(bool large_first)
   return packing;
 }
 
-/// Where the colours of the mixed contact meet, from the large grain's centre.
+/// Distance from the large grain's centre to the point where the colours of the mixed contact meet.
 double split(const PartitionRule& rule, bool large_first)
 {
   const auto lines = draw(mixed_pair(large_first), style_of(rule)).lines;
@@ -77,7 +77,7 @@ TEST(Drawing, AMixedContactIsSplitWhereEachGrainHasItsShare)
   }
 }
 
-TEST(Drawing, AMixedContactBelongsToNobodyUnderDrop)
+TEST(Drawing, AMixedContactBelongsToNoSpeciesUnderDrop)
 {
   const auto lines =
       draw(mixed_pair(true), style_of(PartitionRule{PartitionRule::Kind::drop})).lines;
@@ -95,7 +95,7 @@ TEST(Drawing, AShareOfOneIsAllOfTheLine)
   EXPECT_TRUE(lines[0].round_end);
 }
 
-// The force (3, 4) on a contact along x has the normal part 3.
+// The force (3, 4) on a contact along x has the normal component 3.
 TEST(Drawing, TheWidthIsInProportionToTheNormalForce)
 {
   Packing packing;
@@ -131,7 +131,7 @@ TEST(Drawing, GrainsOfOneSpeciesShareOneLine)
   EXPECT_EQ(lines[0].colour, coarse);
 }
 
-TEST(Drawing, OnABoundaryGrainTheFarPartIsNobodys)
+TEST(Drawing, TheFarPartOfABoundaryContactBelongsToNoSpecies)
 {
   Packing packing;
   const auto grain = packing.grain(Species::small, 0.5, {3, 2.5});
@@ -139,7 +139,7 @@ TEST(Drawing, OnABoundaryGrainTheFarPartIsNobodys)
   packing.contact(grain, bead, {0, 2});
   const auto lines = draw(packing, style_of(PartitionRule{})).lines;
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].colour, nobody);  // under the other
+  EXPECT_EQ(lines[0].colour, nobody);  // drawn under the other line
   EXPECT_EQ(lines[0].to, Vec2(3, 1));
   EXPECT_EQ(lines[1].colour, fine);
   EXPECT_NEAR(lines[1].to.y(), 2, 1e-14);
@@ -158,7 +158,7 @@ TEST(Drawing, AContactAcrossThePeriodIsDrawnAtBothEndsAndNotThroughTheCell)
   EXPECT_EQ(drawing.lines[0].to, Vec2(-0.75, 2));
   EXPECT_EQ(drawing.lines[1].from, Vec2(10.25, 2));
   EXPECT_EQ(drawing.lines[1].to, Vec2(9.25, 2));
-  ASSERT_EQ(drawing.discs.size(), 3u);  // the left one is cut by the end of the cell
+  ASSERT_EQ(drawing.discs.size(), 3u);  // the end of the cell cuts the left one
   EXPECT_EQ(drawing.discs[1].centre, Vec2(10.25, 2));
 }
 
@@ -207,7 +207,7 @@ TEST(Drawing, AFieldColoursMobileGrainsThatHaveANumber)
   EXPECT_EQ(discs[2].colour, base);
 }
 
-// A grain of radius 0.5 at x = 0.5 leans on a wall that stands at x = 0.
+// A grain of radius 0.5 at x = 0.5 leans on a wall at x = 0.
 TEST(Drawing, AWallLiesWhereGrainsTouchIt)
 {
   Packing packing;
@@ -217,7 +217,7 @@ TEST(Drawing, AWallLiesWhereGrainsTouchIt)
   ASSERT_EQ(drawing.walls.size(), 1u);
   EXPECT_EQ(drawing.walls[0].point, Vec2(0, 2));
   EXPECT_EQ(drawing.walls[0].normal, Vec2(1, 0));
-  ASSERT_EQ(drawing.lines.size(), 1u);  // all of it is the grain's
+  ASSERT_EQ(drawing.lines.size(), 1u);  // all of the line is the grain's
   EXPECT_EQ(drawing.lines[0].to, Vec2(0, 2));
   EXPECT_EQ(drawing.lines[0].colour, fine);
 }
@@ -244,7 +244,7 @@ PackingOf<3> three_spheres()
   packing.grain(Species::large, 0.5, {1, 1, 1});
   packing.contact(0, 1, {0, 0, 1});
   packing.contact(1, 2, {0, 0, 1});
-  packing.wall_contact(2, 0, {0, 0, 1}, {0, 0, 0.5});  // flat on the picture
+  packing.wall_contact(2, 0, {0, 0, 1}, {0, 0, 0.5});  // the wall is parallel to the picture
   packing.wall_contact(2, 1, {0, 1, 0}, {0, 0.5, 0});
   return packing;
 }
@@ -270,7 +270,7 @@ TEST(Drawing, ASlabShowsItsCentresAndItsContactPoints)
 {
   const auto packing = three_spheres();
   auto view = view_3d();
-  view.slab = Range{0.75, 1.75};  // the large grain, its contact at 1.5, and that with wall 1
+  view.slab = Range{0.75, 1.75};  // large grain, its contact at 1.5, and the contact with wall 1
   const auto drawing =
       draw_frame<3>(packing.grains, packing.frame, {}, {}, view, style_of(std::nullopt));
   EXPECT_EQ(drawing.discs.size(), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which frames a film shows, and how long its comment may be.
+// Frames that a film shows, and the length of its comment.
 #include "analysis/render/film.hpp"
 
 #include <gtest/gtest.h>
@@ -20,9 +20,9 @@ TEST(FilmFrames, AreTheFirstOfEachSpan)
   EXPECT_EQ(film_frames(times, all, 0.04, 1e-4), all);
 }
 
-// From 0.2 s on nothing until 10 s: then as often as before, not every frame until the lost time is
-// made up for.
-TEST(FilmFrames, AfterAGapComeNoOftener)
+// There are no frames from 0.2 s to 10 s. Afterwards pictures follow at the usual interval; the
+// film does not show additional frames to make up for the gap.
+TEST(FilmFrames, KeepTheirIntervalAfterAGap)
 {
   const std::vector<double> times{0, 0.1, 0.2, 10, 10.1, 10.2, 10.3, 10.4};
   EXPECT_EQ(film_frames(times, {0, 1, 2, 3, 4, 5, 6, 7}, 0.2, 1e-4), (Frames{0, 2, 3, 5, 7}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers of grains to colour them by.
+// Fields: values of grains that set their colours.
 #include "analysis/render/grain_field.hpp"
 
 #include "formats/core/errors.hpp"
@@ -19,7 +19,7 @@ using std::numbers::pi;
 using Kind = PartitionRule::Kind;
 
 /// The run of three grains: a large one (row 0) on a boundary grain (row 2), a small one (row 1) on
-/// the large one. Frame k is moved by k mm along x, and 0.05 s apart.
+/// the large one. Frame k is shifted by k mm along x; frames are 0.05 s apart.
 class GrainFields : public TestInFolder {
  protected:
   void SetUp() override
@@ -62,7 +62,7 @@ TEST_F(GrainFields, MotionIsThatOfTheFrame)
 }
 
 // Traces of force (x) branch: 1.5e-6 N m between large and small, 1e-5 on the boundary grain, half
-// of which lies this side of the contact point.
+// of which is on the large grain's side of the contact point.
 TEST_F(GrainFields, PressureIsHalfTheTraceOfTheGrainsShareOverItsArea)
 {
   const double large = pi * 0.005 * 0.005, small = pi * 0.0025 * 0.0025;
@@ -81,7 +81,24 @@ TEST_F(GrainFields, ContactsAreThoseThatBearAForce)
   EXPECT_EQ(values("contacts")[1], 1);
 }
 
-// Two frames later everything is 2 mm further on; the large grain has also crossed the cell once, in
+// The order of the grains of a pair without a force does not matter.
+TEST_F(GrainFields, APairWithoutAForceMayNameTheBoundaryGrainFirst)
+{
+  const TrajectoryReader run(path("run.h5"));
+  const GrainField<2> of(parse_field("contacts"), run, run.grains(), run.species(), {});
+  auto frame = three_grains::frame(1);
+  frame.contacts.i.push_back(2);
+  frame.contacts.j.push_back(1);
+  frame.contacts.force.push_back({0, 0});
+  frame.contacts.branch.push_back({0, -0.0175});
+  frame.contacts.gap.push_back(0.01);
+  EXPECT_EQ(of.values(frame)[0], 2);
+  EXPECT_EQ(of.values(frame)[1], 1);
+  frame.contacts.force.back() = {0, -1e-4};
+  EXPECT_THROW(of.values(frame), FormatError);
+}
+
+// Two frames later all grains have moved by 2 mm; the large grain has also crossed the cell once, in
 // all frames.
 TEST_F(GrainFields, DisplacementsCountFromTheTimeGiven)
 {
@@ -99,8 +116,8 @@ TEST_F(GrainFields, DisplacementsCountThePeriodsThatWereCrossed)
   EXPECT_NEAR(of.values(frame)[1], 2 * 0.35 + 0.001, 1e-15);
 }
 
-// The archive of an import may not tell how often grains have crossed a period; then nobody knows how
-// far they went. Their heights are known all the same.
+// The archive of an import may not record how often grains have crossed a period; displacements are
+// then unknown. Heights are known all the same.
 TEST_F(GrainFields, DisplacementsOfAnImportThatCountsNoPeriodsAreRefused)
 {
   const auto write = [&](const std::string& images) {
@@ -111,12 +128,12 @@ TEST_F(GrainFields, DisplacementsOfAnImportThatCountsNoPeriodsAreRefused)
     for (int k = 0; k < 3; ++k) writer.append(three_grains::frame(k), std::vector<double>{0});
     writer.close();
   };
-  for (const auto* images : {"unknown", ""}) {  // and imports of earlier versions, which do not say
+  for (const auto* images : {"unknown", ""}) {  // "": imports of earlier versions do not state it
     write(images);
     EXPECT_EQ(
         complaint("displacement:0"),
         "--color displacement:0: " + path("run.h5") +
-            " does not tell how often grains have crossed its periods; import the run again, from "
+            " does not store how often grains have crossed its periods; import the run again, from "
             "a dump with the columns ix iy iz or xu yu zu, or choose rise:0");
     EXPECT_EQ(values("rise:0")[0], 0);
   }
@@ -148,7 +165,7 @@ TEST_F(GrainFields, TitlesSayWhatIsShownAndItsUnit)
 TEST_F(GrainFields, WhatIsNoFieldIsRefusedWithAWord)
 {
   EXPECT_EQ(complaint("sped").substr(0, 24), "unknown --color 'sped', ");
-  EXPECT_EQ(complaint("speed:3"), "--color speed:3: nothing follows speed");
+  EXPECT_EQ(complaint("speed:3"), "--color speed:3: speed takes no argument");
   EXPECT_EQ(complaint("rise"), "--color rise: give the time to compare with, as in rise:0");
   EXPECT_EQ(complaint("rise:x"), "--color rise:x: 'x' is not a time");
   EXPECT_EQ(complaint("velocity:z"), "--color velocity:z: the components of this run are x and y");
@@ -169,7 +186,7 @@ TEST_F(GrainFields, AnInstantTakesTheNearestFrame)
 
 const Box wide{.length_x = 100, .length_y = 10, .periodic_x = true};
 
-/// Lucy's function of u.
+/// Lucy's function of u = r/R.
 double lucy(double u)
 {
   return (1 + 3 * u) * std::pow(1 - u, 3);
@@ -206,7 +223,7 @@ TEST(LocalComposition, ReachesAcrossThePeriods)
   }
 }
 
-// The other grain is at 2, and its image at 8 on the other side; the grain's own images are at 10.
+// The other grain is at 2, its image at 8 on the other side; the grain's own images are at 10.
 TEST(LocalComposition, InAShortCellImagesCountToo)
 {
   Packing packing;
@@ -218,7 +235,7 @@ TEST(LocalComposition, InAShortCellImagesCountToo)
   EXPECT_NEAR(share[0], others / (1 + others), 1e-15);
 }
 
-// All pairs, of grains below and above y = 0 alike, with their images along both periods.
+// Compared with the sum over all pairs, with grains below and above y = 0 and images along both periods.
 TEST(LocalComposition, IsTheSumOverAllPairs)
 {
   PackingOf<3> packing;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where things stand on a page, the legend, and the bytes of a file.
+// Layout of a page, the legend, and the bytes of a file.
 #include "analysis/render/legend.hpp"
 #include "analysis/render/picture_file.hpp"
 #include "analysis/render/picture_options.hpp"
@@ -11,7 +11,7 @@
 namespace grseg {
 namespace {
 
-/// Panels of width 2 m and height 1 m over a legend of items of these widths, px.
+/// Content with panels of width 2 m and height 1 m, and legend items of these widths, px.
 PageContent content_of(std::size_t panels, const std::vector<double>& items)
 {
   PageContent content;
@@ -58,8 +58,8 @@ TEST(Page, NothingOverlapsAndAllLiesOnThePage)
   }
 }
 
-// A line has 800 - 2 x 0.8 x 12 = 780.8 px: 300, a gap of 2.2 x 12 and 200 fit, and 400 more do not.
-TEST(Page, TheLegendGoesOnInAnotherLineWhereOneIsFull)
+// A line has 800 - 2 x 0.8 x 12 = 780.8 px: 300, a gap of 2.2 x 12 and 200 fit; an item of 400 does not.
+TEST(Page, TheLegendContinuesInAnotherLineIfOneIsFull)
 {
   const auto page = lay_out(content_of(1, {300, 200, 400, 100}), 800, 12, false);
   ASSERT_EQ(page.items.size(), 4u);
@@ -141,7 +141,7 @@ TEST(PageWidth, IsInPixelsOrOnPaper)
   EXPECT_EQ(*parse_width("25.4mm").pixels, 300);
   EXPECT_EQ(*parse_width("2.54cm").pixels, 300);
   EXPECT_EQ(*parse_width("2in").pixels, 600);
-  // 8 points of 1/72 inch, and 300 pixels to the inch.
+  // 8 points of 1/72 inch, with 300 pixels per inch.
   EXPECT_NEAR(parse_width("2in").em * parse_width("2in").points, 8, 1e-12);
   EXPECT_NEAR(600 * parse_width("2in").points, 144, 1e-12);
   EXPECT_EQ(complaint_of<UsageError>([] { parse_width("3"); }),

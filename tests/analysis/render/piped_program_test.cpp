@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Programs that read from a pipe of ours.
+// Programs that read from a pipe which this process writes.
 #include "analysis/render/piped_program.hpp"
 
 #include "tests/folder.hpp"
@@ -58,7 +58,7 @@ TEST_F(PipedPrograms, AreFoundInPathAndNowhereElse)
   const std::string path_before = std::getenv("PATH");
   put("tool", "#!/bin/sh\n");
   setenv("PATH", ("/nowhere:" + folder.string()).c_str(), 1);
-  EXPECT_FALSE(find_program("tool"));  // not to be executed
+  EXPECT_FALSE(find_program("tool"));  // the file is not executable
   std::filesystem::permissions(path("tool"), std::filesystem::perms::owner_all);
   EXPECT_EQ(find_program("tool"), path("tool"));
   EXPECT_FALSE(find_program("sh"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers beside a picture, and its colours.
+// Numbers and colours of a picture's legend.
 #include "analysis/render/round_numbers.hpp"
 
 #include "analysis/render/colours.hpp"
@@ -75,7 +75,7 @@ TEST(RoundNumbers, LengthsHaveTheUnitThatFits)
   EXPECT_EQ(lengths_text({-0.002, 0.001}), "-2 to 1 mm");
 }
 
-// 0 to 100: the 99th of a hundred steps.
+// Values 0 to 100: the 99th of a hundred steps is 99.
 TEST(FieldRange, LeavesOutTheLastHundredth)
 {
   std::vector<double> values;

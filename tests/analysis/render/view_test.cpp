@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of a cell is seen, and where it comes to lie on the page.
+// Part of a cell that a picture shows, and positions on the page.
 #include "analysis/render/view.hpp"
 
 #include "analysis/render/painter.hpp"
@@ -99,7 +99,7 @@ TEST(View, ASlabHoldsCentresAndGoesAcrossThePeriod)
   view.slab = Range{3.5, 4.5};
   EXPECT_FALSE(view.nearness<3>({0, 0, 3.4}));
   EXPECT_EQ(*view.nearness<3>({0, 0, 3.75}), 3.75);
-  EXPECT_EQ(*view.nearness<3>({0, 0, 0.25}), 4.25);  // nearer, since it comes in from behind z = 4
+  EXPECT_EQ(*view.nearness<3>({0, 0, 0.25}), 4.25);  // nearer: it enters from behind z = 4
   EXPECT_FALSE(view.nearness<3>({0, 0, 0.6}));
 }
 
@@ -123,8 +123,8 @@ TEST(View, RegionsThatCannotBeAreRefused)
   EXPECT_EQ(
       refused("1m:1m,:"),
       "--region '1m:1m': it begins at 1 m and ends at 1 m; the first must be the smaller one");
-  EXPECT_EQ(refused("0:201m,:"), "--region '0:201m,:': that is more than 20 periods of 10 m");
-  EXPECT_EQ(refused("0,1"), "--region '0': write where it begins and ends, as in 0:20dS");
+  EXPECT_EQ(refused("0:201m,:"), "--region '0:201m,:': it spans more than 20 periods of 10 m");
+  EXPECT_EQ(refused("0,1"), "--region '0': write its begin and end, as in 0:20dS");
   EXPECT_EQ(refused("0:4dX,:"),
             "--region '4dX' is not a length: give a number with a unit, as in 0.02m, 20mm, "
             "4dS, 2dL");
@@ -138,7 +138,7 @@ TEST(Projection, TheMiddleOfTheRegionLiesInTheMiddleOfThePanelAndYPointsUp)
   EXPECT_EQ(to_page({10, 0}), Vec2(1000, 500));
 }
 
-// A slope of 30 degrees: gravity is (1/2, -sqrt(3)/2), and turned by -30 degrees points down.
+// A slope of 30 degrees: gravity is (1/2, -sqrt(3)/2); turned by -30 degrees it points down.
 TEST(Projection, ATurnedPictureHasGravityDownThePage)
 {
   const double angle = -std::numbers::pi / 6;

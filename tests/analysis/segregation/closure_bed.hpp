@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-/// A bed that segregates by a closure with known coefficients, and how its summary is read.
+/// A bed that segregates by a closure with known coefficients, and functions that read its summary.
 namespace grseg {
 
 inline constexpr double b_over_c = 3e-4, d_over_c = 1.3e-4;   // s, m^2/s
-inline constexpr double weight_of_mass = 9.02, layer = 0.02;  // g cos, m/s^2; m
+inline constexpr double weight_of_mass = 9.02, layer = 0.02;  // g cos(slope), m/s^2; m
 inline const std::vector<PartitionRule> two_rules = parse_rules({"uniform:0.8,half"});
 
 inline Estimate number_of(const NamedNumbers& summary, const std::string& name)
@@ -31,7 +31,8 @@ inline bool remarks_hold(const NamedNumbers& summary, const std::string& words)
       [&](const std::string& remark) { return remark.find(words) != std::string::npos; });
 }
 
-/// A bed of ten layers that segregates: large grains below at first, above at the end.
+/// phi_L of layer n of ten while the bed segregates: large grains are at the bottom at first, at
+/// the top at the end.
 inline double phi_of(int n, double progress)
 {
   return 0.35 + 0.25 * (2 * progress - 1) * (n - 4.5) / 4.5;

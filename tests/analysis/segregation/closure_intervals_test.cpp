@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Intervals of the closure's coefficients, from fluxes with noise.
+// Intervals of the closure's coefficients, from fluxes with noise (closure: docs/equations.md).
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/segregation/closure_bed.hpp"
 
@@ -14,8 +14,8 @@
 namespace grseg {
 namespace {
 
-/// Points of runs whose flux scatters by `kick` times its size, neighbouring windows by rho; `steady`:
-/// the gradient stays in proportion to the driving but for a hundredth of it.
+/// Points of runs whose flux scatters by `kick` times its size; neighbouring windows are correlated
+/// with rho. `steady`: the gradient is proportional to the driving force up to one per cent.
 ClosureData noisy(const RunLengths& runs, double kick, synthetic::Ar1& noise, bool steady = false,
                   double run_scatter = 0)
 {
@@ -56,8 +56,8 @@ ClosureData noisy(const RunLengths& runs, double kick, synthetic::Ar1& noise, bo
   return data;
 }
 
-/// How often of `trials` the intervals hold the truth, and how far the mean is from it in units of its
-/// standard error.
+/// How often of `trials` the intervals contain the truth, and the distance of the mean from it in
+/// units of its standard error.
 struct Trials {
   int held_b = 0, held_d = 0;
   double bias_b = 0, bias_d = 0;
@@ -82,8 +82,8 @@ Trials tried(int trials, const std::function<ClosureData(synthetic::Ar1&)>& make
   return all;
 }
 
-// From `least`, mostly 95 of 100, to 95 of 100, less or more by three standard deviations of such a
-// count; the bias of a mean of many trials lies within three of its standard errors.
+// Expected count: from `least` to 95 of 100, with a tolerance of three standard deviations of such
+// a count. The mean of many trials may be off by three of its standard errors.
 void expect_coverage(const Trials& trials, int count, double least = 0.95)
 {
   for (const int held : {trials.held_b, trials.held_d}) {
@@ -99,8 +99,8 @@ TEST(SegregationClosure, IntervalsOfOneRunHoldTheTruth)
   expect_coverage(tried(400, [](auto& noise) { return noisy({60}, 0.5, noise); }), 400);
 }
 
-// Blocks of 120 windows with a correlation of 0.5 between neighbours hold the truth in 93 of 100 cases
-// where the weight of a window changes along the run, as that of the gradient does.
+// With a correlation of 0.5 between neighbours, intervals from 120 windows contain the truth in 93 of
+// 100 cases if the weight of a window changes along the run, as that of the gradient does.
 TEST(SegregationClosure, IntervalsOfOneRunHoldTheTruthWhereWindowsAreCorrelated)
 {
   const auto make = [](auto& noise) { return noisy({120}, 0.5, noise); };
@@ -120,8 +120,8 @@ double width_of(const NamedNumbers& summary, const std::string& name)
   return estimate.high - estimate.low;
 }
 
-// A B without noise: c = B/(B/c) is as uncertain, in parts of itself, as B/c. A psi that is off by the
-// same under all rules: p* moves by that over B(1) - B(0) = 0.8.
+// If B has no noise, the relative error of c = B/(B/c) equals that of B/c. An error of psi that is
+// equal under all rules moves p* by this error over B(1) - B(0) = 0.8.
 TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
 {
   synthetic::Ar1 noise(0);
@@ -144,7 +144,7 @@ TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
   EXPECT_NEAR(width_of(off, "p_zero"), width_of(off, "B@size") / 0.8, 1e-10);
 }
 
-// One over the sine of the angle between the regressors.
+// The factor is one over the sine of the angle between the regressors.
 TEST(SegregationClosure, CollinearRegressorsAreReportedWithWhatTheyMakeOfTheError)
 {
   synthetic::Ar1 noise(0);
@@ -166,12 +166,12 @@ TEST(SegregationClosure, CollinearRegressorsAreReportedWithWhatTheyMakeOfTheErro
   EXPECT_GT(width_of(steady, "B_over_c[s]"), 20 * width_of(apart, "B_over_c[s]"));
 }
 
-/// A bed whose composition is moved by a flux of the closure and by noise of that flux, as in a run: the
+/// A bed whose composition is moved by a flux of the closure plus noise of this flux, as in a run: the
 /// noise of a window changes the gradient of the same window.
 ClosureData moved_by_its_flux(synthetic::Ar1& noise, Instruments instruments)
 {
   constexpr int layers = 14, windows = 60, steps = 25;
-  constexpr double dt = 0.05, kick = 2e-3;  // s; m/s in one step
+  constexpr double dt = 0.05, kick = 2e-3;  // time step, s; noise in one step, m/s
   std::vector<double> phi(layers);
   for (int n = 0; n < layers; ++n) phi[static_cast<std::size_t>(n)] = n < 7 ? 0.55 : 0.25;
   const auto driving = [](double at) { return at * (1 - at) * weight_of_mass; };
@@ -215,7 +215,7 @@ ClosureData moved_by_its_flux(synthetic::Ar1& noise, Instruments instruments)
   return data;
 }
 
-// What rises by chance makes the gradient of its window larger.
+// Large grains that rise by chance increase the gradient of their own window.
 TEST(SegregationClosure, TheFluxsOwnNoiseBiasesLeastSquaresAndNotTheWindowBefore)
 {
   const auto previous =
@@ -247,8 +247,9 @@ ClosureData two_mixtures()
   return data;
 }
 
-// Drawn as one population, four values of which two are lower and two higher by half of B/c have the standard
-// error B/c/2 sqrt(1/3), and Student's quantile of three degrees of freedom is 3.182. It says so.
+// Drawn as one population, the four values, two lower and two higher by half of B/c, have the standard error
+// B/c/2 sqrt(1/3), and Student's quantile of three degrees of freedom is 3.182. The result says that it did
+// so.
 TEST(SegregationClosure, RunsAreOnePopulationWhateverTheirMixtures)
 {
   const auto summary = closure_summary(two_mixtures(), parse_rules({"size"}), {4000, 1});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the flux of large grains fixes of Gray & Thornton's closure, and what a rule makes of it.
+// Coefficients of Gray & Thornton's closure from the flux of large grains, and their dependence on
+// the rule.
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/frames/sums.hpp"
@@ -20,15 +21,15 @@
 namespace grseg {
 namespace {
 
-/// What a run is made of besides its flux.
+/// Quantities from which a run is made, besides its flux.
 struct Made {
   double temperature = 0, temperature_slope = 0,
-         b_kinetic = 0;        // K/rho at y = 0, m^2/s^2; its d/dy
+         b_kinetic = 0;        // K/rho at y = 0, m^2/s^2; its derivative d/dy
   double acceleration = 0;     // a/(phi_L phi_S), m/s^2
-  double b = 0, c = 0, d = 0;  // flux of the closure with all terms; c = 0: of X and G alone
+  double b = 0, c = 0, d = 0;  // coefficients of the closure for the flux; c = 0: X and G alone
 };
 
-/// The forces per mass of a layer by their definitions, K linear in y.
+/// Forces per mass of a layer by their definitions; K is linear in y.
 struct Terms {
   double driving, push, spread, inertia;
 };
@@ -75,7 +76,7 @@ std::vector<double> motion_cells(const Made& made, int n, double progress, doubl
           gain};
 }
 
-/// The tables of a run of 20 windows, of grseg-segregation and of grseg-stress.
+/// Tables of grseg-segregation and of grseg-stress for a run of 20 windows.
 struct Tables {
   Table segregation, stress;
 };
@@ -129,7 +130,7 @@ NamedNumbers summary_of(const std::vector<Table>& tables,
 TEST(SegregationClosure, AFluxWithoutNoiseGivesItsCoefficientsFromTablesInAnyOrder)
 {
   const auto a = tables_of({}, "a"), b = tables_of({}, "b");
-  auto moved = b;  // the same numbers would be the same run
+  auto moved = b;  // equal numbers would be the same run
   for (auto* table : {&moved.segregation, &moved.stress})
     for (auto& row : table->rows) {
       row[0] += 100;
@@ -141,8 +142,8 @@ TEST(SegregationClosure, AFluxWithoutNoiseGivesItsCoefficientsFromTablesInAnyOrd
   EXPECT_NEAR(number_of(summary, "D_displacements[m^2/s]").value, d_over_c, 1e-15);
 }
 
-// Neutral contacts: B by any share follows from r, and is 0 at p* = r/(1 + r) = 2/3. Layers count by
-// phi_L phi_S.
+// Neutral contacts: B at any share follows from r, and is 0 at p* = r/(1 + r) = 2/3. Layers have the
+// weight phi_L phi_S.
 TEST(SegregationClosure, CIsBOverTheFluxAndChangesItsSignAtPStar)
 {
   const auto run = tables_of({}, "a");
@@ -150,7 +151,7 @@ TEST(SegregationClosure, CIsBOverTheFluxAndChangesItsSignAtPStar)
   EXPECT_NEAR(number_of(summary, "p_zero").value, 2.0 / 3, 1e-12);
   for (const auto& rule : two_rules) {
     double b = 0, sum = 0;
-    for (int window = 1; window < 20; ++window)  // the first one has none before it
+    for (int window = 1; window < 20; ++window)  // the first window has no window before it
       for (int n = 1; n < 9; ++n) {              // the outer layers lack a neighbour
         const double phi = phi_of(n, window / 19.0), both = phi * (1 - phi);
         b += both * neutral_b(rule, 2, phi);
@@ -167,7 +168,7 @@ TEST(SegregationClosure, CIsBOverTheFluxAndChangesItsSignAtPStar)
   EXPECT_TRUE(remarks_hold(summary, "uniform:0.8 +, half -; it changes at p* = 0.667"));
 }
 
-// K' = rho T' and psi_K = phi_L (1 + B_K phi_S): k_push = -B_K T' phi_L phi_S, beside a driving of
+// K' = rho T' and psi_K = phi_L (1 + B_K phi_S): k_push = -B_K T' phi_L phi_S; the driving force is
 // phi_L phi_S (g + T').
 TEST(SegregationClosure, AKineticPushIsMeasuredAsPartOfB)
 {
@@ -181,7 +182,7 @@ TEST(SegregationClosure, AKineticPushIsMeasuredAsPartOfB)
   EXPECT_NEAR(number_of(summary, "tau_X_of_inertia").value, 0, 1e-12);
 }
 
-// Large grains with their part of a uniform temperature T diffuse: k_spread = -T dphi_L/dy.
+// Large grains that have their share of a uniform temperature T diffuse: k_spread = -T dphi_L/dy.
 TEST(SegregationClosure, AUniformTemperatureIsMeasuredAsPartOfD)
 {
   const double temperature = 0.035;
@@ -200,8 +201,7 @@ TEST(SegregationClosure, InertiaOfTheLargeGrainsIsMeasuredAgainstB)
   EXPECT_NEAR(number_of(summary, "tau_X").value, -0.4 / weight_of_mass, 1e-12);
 }
 
-// A flux with all its terms, none of them small: only with them kept are c and d those it was made
-// with.
+// The flux has all terms, none of them small: c and d are recovered only if all terms are fitted.
 TEST(SegregationClosure, WithAllTermsKeptCAndDAreThoseOfTheFlux)
 {
   const Made made{.temperature = 0.03,
@@ -235,7 +235,7 @@ TEST(SegregationClosure, LayersAndWindowsAreChosenByHeightAndTime)
   const auto run = tables_of({}, "a");
   ClosureFilter filter;
   EXPECT_EQ(read_closure({run.segregation, run.stress}, two_rules, filter).points.size(), 8u * 19);
-  filter.instruments = Instruments::same;  // needs no window before
+  filter.instruments = Instruments::same;  // does not need the window before
   EXPECT_EQ(read_closure({run.segregation, run.stress}, two_rules, filter).points.size(), 8u * 20);
   filter.instruments = Instruments::previous;
   filter.heights = "8dS:24dS";  // layers 2 to 5
@@ -246,7 +246,7 @@ TEST(SegregationClosure, LayersAndWindowsAreChosenByHeightAndTime)
   EXPECT_EQ(data.runs, RunLengths{6});
 }
 
-/// The same run with all lengths and times divided by `factor`.
+/// The table of the same run with all lengths and times divided by `factor`.
 Table shrunk(Table table, double factor)
 {
   for (auto& row : table.rows)
@@ -256,7 +256,8 @@ Table shrunk(Table table, double factor)
   return table;
 }
 
-// Layers of 0.2 um in windows of 12.5 us are as many as layers of 2 cm in windows of 1.25 s.
+// Layers of 0.2 um in windows of 12.5 us must be distinguished as well as layers of 2 cm in windows
+// of 1.25 s.
 TEST(SegregationClosure, ThinLayersAndShortWindowsAreToldApart)
 {
   const auto run = tables_of({}, "a");
@@ -265,7 +266,7 @@ TEST(SegregationClosure, ThinLayersAndShortWindowsAreToldApart)
   EXPECT_EQ(data.points.size(), 8u * 19);
 }
 
-// Where all stress is a pull the large grains' share of it has no meaning, as in grseg-fit.
+// If all stress is tensile, the large grains' share of it has no meaning, as in grseg-fit.
 TEST(SegregationClosure, LayersUnderTensionDoNotTakePart)
 {
   auto run = tables_of({}, "a");
@@ -295,7 +296,7 @@ TEST(SegregationClosure, RunsWhoseTablesDoNotBelongTogetherAreRefused)
   expect_refusal({a.segregation, a.stress, b.segregation, b.stress}, "all numbers are the same");
   auto shorter = a.stress;
   shorter.rows.resize(50);
-  expect_refusal({a.segregation, shorter}, "has no row for the layer from 0 to 0.02 m from 6.25");
+  expect_refusal({a.segregation, shorter}, "there is no row for the layer from 0 to 0.02 m from 6.25");
   auto thicker = a.stress;
   for (auto& [key, value] : thicker.header)
     if (key == "layer") value = "0.01";

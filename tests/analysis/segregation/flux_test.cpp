@@ -17,12 +17,12 @@ namespace grseg {
 namespace {
 
 const Layers layers(1, 10);
-const Window window{2, 10, {}};  // parts of 1 s
+const Window window{2, 10, {}};  // its eight parts last 1 s each
 constexpr double small_diameter = 0.02, large_diameter = 0.04;
 
 using Move = std::function<void(Packing&, double)>;
 
-/// Frames over the window at equal distances; `move` gets the time since its beginning.
+/// Equally spaced frames over the window; `move` gets the time since the window's begin, s.
 std::vector<Packing> film(Packing scene, int frames, const Move& move)
 {
   std::vector<Packing> all;
@@ -46,8 +46,8 @@ SegregationFlux<2> seen(const Packing& scene, int frames, const Move& move)
   return seen(film(scene, frames, move));
 }
 
-/// Two small and one large grain (masses 1:1:4) in the second of two layers, three small ones
-/// below.
+/// Two small grains and one large grain (masses 1:1:4) in the upper of two layers, three small
+/// grains in the lower one.
 Packing mixture()
 {
   Packing scene;
@@ -58,7 +58,7 @@ Packing mixture()
   return scene;
 }
 
-// v = 0.1 for the small, 0.4 for the large grain: w = (2*0.1 + 4*0.4)/6 = 0.3, phi_L = 2/3.
+// v = 0.1 for the small grains, 0.4 for the large one: w = (2*0.1 + 4*0.4)/6 = 0.3, phi_L = 2/3.
 TEST(SegregationFlux, AKnownFluxIsFound)
 {
   const Packing scene = mixture();
@@ -82,7 +82,7 @@ TEST(SegregationFlux, AKnownFluxIsFound)
   EXPECT_TRUE(std::isnan(pure.value.S));
 }
 
-// A layer that swings, with its large grains present only on the way up, does not segregate.
+// A layer that oscillates does not segregate, even if its large grains are present only while it rises.
 TEST(SegregationFlux, TheMotionOfTheLayerAsAWholeDropsOut)
 {
   const Packing scene = mixture();
@@ -123,11 +123,11 @@ TEST(SegregationFlux, ASteadyDriftHasNoDiffusivity)
   });
   EXPECT_NEAR(flux.results(scene.grains, 2)[1].value.D_small, 0, 1e-28);
   EXPECT_NEAR(flux.results(scene.grains, 2)[0].value.D2_small, 0, 1e-28);
-  EXPECT_TRUE(std::isnan(flux.results(scene.grains, 2)[1].value.D_large));  // one is all drift
+  EXPECT_TRUE(std::isnan(flux.results(scene.grains, 2)[1].value.D_large));  // one grain: all drift
 }
 
-// Two small grains that part with velocities +-c: sum of squares 2 (c t)^2 over one and over 2 t,
-// so D = c^2 t, which doubles with the lag: ballistic motion is seen as such.
+// Two small grains part with velocities +-c. The sum of squares 2 (c t)^2, over one degree of
+// freedom and over 2 t, is D = c^2 t, which doubles with the lag: ballistic motion is recognised.
 TEST(SegregationFlux, BallisticMotionHasADiffusivityThatGrowsWithTheLag)
 {
   constexpr double c = 0.01;
@@ -141,7 +141,7 @@ TEST(SegregationFlux, BallisticMotionHasADiffusivityThatGrowsWithTheLag)
   EXPECT_NEAR(value.D2_small, c * c * 2, 1e-15);
 }
 
-// Darken: the rarer a species, the more the composition's diffusivity is its own.
+// Darken's relation: the rarer a species, the closer the composition's diffusivity is to its own.
 TEST(SegregationFlux, TheCompositionDiffusesAsItsRarerSpecies)
 {
   Packing scene;
@@ -159,8 +159,8 @@ TEST(SegregationFlux, TheCompositionDiffusesAsItsRarerSpecies)
   EXPECT_NEAR(value.D, 0.2 * 2.5e-5 + 0.8 * 1e-4, 1e-16);
 }
 
-/// 40 small grains and 20 large ones in the middle of each of three layers walk at random with
-/// D = 2e-4 and 1e-4 m^2/s, drifts of their own on top.
+/// In the middle of each of three layers, 40 small and 20 large grains walk at random with D = 2e-4
+/// and 1e-4 m^2/s; each species also drifts.
 std::vector<Packing> walk(unsigned seed)
 {
   std::mt19937 random(seed);
@@ -207,7 +207,7 @@ TEST(SegregationFlux, ARandomWalkHasItsDiffusivityWithinItsError)
 }
 
 // phi_L = 1/2 at y = 1.5, between 1/5 at 0.5 and 4/5 at 2.5: gradient 0.3. With w_L - w = 0.1 and
-// no diffusivity S = 0.05/0.25; D = 2e-4 adds 2e-4*0.3.
+// no diffusivity, S = 0.05/0.25; D = 2e-4 adds 2e-4*0.3.
 TEST(SegregationFlux, TheFluxIsSplitIntoSegregationAndDiffusion)
 {
   Packing scene;
@@ -218,7 +218,7 @@ TEST(SegregationFlux, TheFluxIsSplitIntoSegregationAndDiffusion)
   fill(0.5, 8, 2);
   fill(1.5, 5, 5);
   fill(2.5, 2, 8);
-  const double step = std::sqrt(2 * 2e-4);  // +-step in 1 s: variance 2 D t but for n/(n - 1)
+  const double step = std::sqrt(2 * 2e-4);  // +-step per 1 s: variance 2 D t, except for n/(n - 1)
   const auto flux = seen(scene, 8, [&](Packing& s, double t) {
     const double side = static_cast<int>(t + 0.5) % 2 == 0 ? 0 : step;
     for (std::size_t g = 10; g < 20; ++g) {
@@ -228,7 +228,7 @@ TEST(SegregationFlux, TheFluxIsSplitIntoSegregationAndDiffusion)
     }
   });
   const auto value = flux.results(scene.grains, 3)[1].value;
-  EXPECT_NEAR(value.D_small, 2e-4, 1e-15);  // four of five move: 4 step^2/4
+  EXPECT_NEAR(value.D_small, 2e-4, 1e-15);  // four of five grains move: 4 step^2/4
   EXPECT_NEAR(value.D, 2e-4, 1e-15);
   EXPECT_NEAR(value.gradient, 0.3, 1e-12);
   EXPECT_NEAR(value.q_large, 0.05, 1e-14);
@@ -275,7 +275,7 @@ TEST(SegregationFlux, OfASingleFrameDiffusivitiesAndErrorsAreUnknown)
   EXPECT_TRUE(std::isnan(result.error.phi_large));
 }
 
-// Large grains that fall freely, small ones at rest; 15 of the 16 intervals lie between two frames.
+// Large grains fall freely, small ones are at rest; 15 of the 16 intervals are between two frames.
 TEST(SegregationFlux, TheMomentumGainedIsTheForceOverTheWindowAlsoOfItsParts)
 {
   const Packing scene = mixture();
@@ -305,7 +305,7 @@ TEST(SegregationFlux, EveryNumberStandsUnderItsColumn)
   std::map<std::string, double> cells;
   for (const auto& cell : result.cells(2)) cells[cell.column] = cell.value;
   EXPECT_EQ(cells.size(), 7 + 2 * 15u + 6);
-  const double mass = std::numbers::pi * 4e-4;  // of the large grain
+  const double mass = std::numbers::pi * 4e-4;  // mass of the large grain
   EXPECT_NEAR(cells.at("mass_L[kg]"), mass, 1e-15);
   EXPECT_NEAR(cells.at("mass_S[kg]"), mass / 2, 1e-15);
   EXPECT_NEAR(cells.at("mvv_L_yy[J]"), mass * 0.16, 1e-15);

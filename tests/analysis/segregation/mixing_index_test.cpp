@@ -12,7 +12,7 @@ namespace {
 
 const Layers layers(1, 10);
 
-/// Grains of radius 0.01 in 20 layers, each layer's large grains out of 50 by `large(layer)`.
+/// Grains of radius 0.01 in 20 layers of 50; `large(layer)`: number of large grains in a layer.
 template <class Large>
 Packing bed(const Large& large)
 {
@@ -40,8 +40,8 @@ TEST(MixingIndex, IsLargerForARegularMixtureThanForARandomOne)
   EXPECT_NEAR(index_of(bed([](int) { return 20; })), 50.0 / 49, 1e-12);
 }
 
-// Mean over 200 beds; drawn with replacement the variance is phi_L phi_S/50 but for the bed's own
-// share of 1/20, and unequal sizes are what Stange's formula is about.
+// Mean over 200 beds. If grains are drawn with replacement, the variance is phi_L phi_S/50, except
+// for the bed's own share of 1/20; Stange's formula extends this to unequal sizes.
 TEST(MixingIndex, IsOneForARandomMixture)
 {
   std::mt19937 random(2);
@@ -58,7 +58,7 @@ TEST(MixingIndex, IsOneForARandomMixture)
     mean += (1 - index_of(scene)) / 200;
   }
   // 1 - index = (s^2 - s_r^2)/(s_0^2 - s_r^2). phi_L = 4/13, area 1.3 per grain: s_r^2/s_0^2 =
-  // (9/13 * 4 + 4/13)/(200 * 1.3) = 0.0118. A twentieth of it is the bed's own share.
+  // (9/13 * 4 + 4/13)/(200 * 1.3) = 0.0118. The bed's own share is a twentieth of it.
   EXPECT_NEAR(mean, 0, 0.1 * 0.0118);
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double S = 3e-3, D = 1.2e-4;
 
-/// 10 layers in 48 windows whose fluxes obey q = S phi_L phi_S - D d phi_L/dy, plus noise that is
-/// independent from point to point. Composition changes from window to window and layer to layer.
+/// 10 layers in 48 windows whose fluxes follow q = S phi_L phi_S - D d phi_L/dy, plus noise that is
+/// independent from point to point. Composition differs between windows and layers.
 std::vector<RatePoint> points(double noise, unsigned seed = 1)
 {
   std::mt19937 random(seed);
@@ -51,7 +51,7 @@ Estimate number(const NamedNumbers& summary, const std::string& name)
   return {};
 }
 
-// Differences -2, 2, -2: 4/3 * 12/2.
+// Differences of neighbours -2, 2, -2: 4/3 * 12/2.
 TEST(ErrorAboutTrend, ItIsThatOfTheDifferencesOfNeighbours)
 {
   const auto error = error_about_trend(Eigen::Vector4d{1, -1, 1, -1});
@@ -75,7 +75,7 @@ TEST(SegregationRates, AFluxThatObeysTheLawGivesItsCoefficients)
   EXPECT_NEAR(number(summary, "D_flux[m^2/s]").value, D, 1e-16);
 }
 
-// 95 of 100, less or more by three standard deviations of such a count.
+// 95 of 100, within three standard deviations of such a count.
 TEST(SegregationRates, IntervalsHoldTheTruth)
 {
   int pe = 0, held_S = 0, held_D = 0;
@@ -95,7 +95,7 @@ TEST(SegregationRates, IntervalsHoldTheTruth)
   }
 }
 
-// A diffusivity that doubles in the course of the run has a mean, known well.
+// The mean of a diffusivity that doubles during the run is known well.
 TEST(SegregationRates, ASlowChangeIsNoError)
 {
   auto changing = points(0.01);

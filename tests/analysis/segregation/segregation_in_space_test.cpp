@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spheres that separate along y.
+// Segregation of spheres along y.
 #include "analysis/segregation/flux.hpp"
 #include "analysis/segregation/rates.hpp"
 #include "tests/analysis/grain_builder.hpp"
@@ -19,10 +19,10 @@ using std::numbers::pi;
 using Spheres = PackingOf<3>;
 
 const Layers slabs(1, 10, 7);
-const Window eight_seconds{2, 10, {}};  // parts of 1 s
+const Window eight_seconds{2, 10, {}};  // its eight parts last 1 s each
 
-/// Four small spheres and a large one (masses 1:8) in the second of two layers, three small ones
-/// below.
+/// Four small spheres and a large one (masses 1:8) in the upper of two layers, three small ones in
+/// the lower one.
 Spheres mixture_of_spheres()
 {
   Spheres scene;
@@ -44,7 +44,7 @@ SegregationFlux<3> watched(Spheres scene, const Move& move)
   return flux;
 }
 
-// v = 0.1 for the small, 0.4 for the large grain: w = (4*0.1 + 8*0.4)/12 = 0.3, phi_L = 2/3.
+// v = 0.1 for the small spheres, 0.4 for the large one: w = (4*0.1 + 8*0.4)/12 = 0.3, phi_L = 2/3.
 TEST(SegregationInSpace, AKnownFluxIsFound)
 {
   const auto scene = mixture_of_spheres();
@@ -66,8 +66,7 @@ TEST(SegregationInSpace, AKnownFluxIsFound)
   EXPECT_NEAR(cells.at("v[m/s]"), 0.3, 1e-14);
 }
 
-// Small spheres that part along y with +-c: D = c^2 t 4/(2 * 3); how far they go across does not
-// matter.
+// Small spheres part along y with +-c: D = c^2 t 4/(2 * 3). Motion across y does not count.
 TEST(SegregationInSpace, DiffusionIsAlongTheNormal)
 {
   constexpr double c = 0.01;
@@ -83,8 +82,7 @@ TEST(SegregationInSpace, DiffusionIsAlongTheNormal)
   EXPECT_NEAR(value.D2_small, 2 * value.D_small, 1e-15);
 }
 
-// Layers of 50 equal spheres, each of the same composition: s_0^2/(s_0^2 - s_r^2) = 50/49; and
-// separated ones.
+// Layers of 50 equal spheres, all of one composition: s_0^2/(s_0^2 - s_r^2) = 50/49; and separated layers.
 TEST(SegregationInSpace, TheMixingIndexIsThatOfVolumes)
 {
   const auto bed = [](const auto& large) {
@@ -99,8 +97,8 @@ TEST(SegregationInSpace, TheMixingIndexIsThatOfVolumes)
   EXPECT_NEAR(bed([](int layer) { return layer < 8 ? 50 : 0; }), 0, 1e-12);
 }
 
-// phi_L = 8/9 of one large and one small sphere of half its size in each of two layers: s^2 = 0 and
-// s_r^2/s_0^2 = 2 (1/9 8 + 8/9 1)/18.
+// phi_L = 8/9: one large sphere and one small sphere of half its size in each of two layers. s^2 =
+// 0 and s_r^2/s_0^2 = 2 (1/9 8 + 8/9 1)/18.
 TEST(SegregationInSpace, ARandomMixtureOfSpheresVariesByTheirVolumes)
 {
   Spheres scene;
@@ -138,7 +136,7 @@ TEST(SegregationInSpace, RowsOfARunHaveTheirColumns)
     return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
                                     columns.begin());
   };
-  // Volumes 1 at 0.2 to 0.8, 4 about 1.5, 8 at 1.5.
+  // Volume 1 at each of 0.2 to 0.8, 4 about 1.5, 8 at 1.5.
   EXPECT_NEAR(bed[at("height[m]")], 2 * (1.5 + 12 * 1.5) / 15, 1e-13);
   EXPECT_NEAR(bed[at("yL[m]")], 1.5, 1e-14);
   EXPECT_NEAR(bed[at("shear_rate[1/s]")], 3, 1e-12);

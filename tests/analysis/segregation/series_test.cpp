@@ -13,7 +13,7 @@ namespace {
 
 const Layers layers(1, 10);
 
-// 100 grains of equal size; the bed is 20 high, so that the shear rate is taken from 2 to 18.
+// 100 grains of equal size; the bed is 20 high, so the shear rate is fitted from 2 to 18.
 Packing shear(double rate, double kink)
 {
   Packing scene;
@@ -38,7 +38,7 @@ TEST(SegregationSeries, HeightsAndShearRateAreThoseOfTheBed)
   EXPECT_NEAR(now.shear_rate, 3, 1e-12);
 }
 
-// A rate that grows linearly in time from 1 to 5 over 2 s makes a strain of 6.
+// A shear rate that grows linearly from 1 to 5 over 2 s gives a strain of 6.
 TEST(SegregationSeries, StrainIsTheIntegralOfTheShearRate)
 {
   SegregationSeries<2> whole(layers), first(layers), second(layers);
@@ -56,7 +56,7 @@ TEST(SegregationSeries, StrainIsTheIntegralOfTheShearRate)
 }
 
 /// y_L rises exponentially in strain; the shear rate falls from 20 to 10 over the run; the mixing
-/// index is a parabola with its top at 16.3 s.
+/// index is a parabola with its maximum at 16.3 s.
 std::vector<BedState> history(int count, double scatter)
 {
   std::mt19937 random(4);
@@ -89,11 +89,11 @@ TEST(SegregationTimes, StrainIsTheClockWhereTheFlowSlowsDown)
   EXPECT_NEAR(number(summary, "t50_strain").value, 200 * std::log(2), 0.01);
   EXPECT_NEAR(number(summary, "t90_strain").value, 200 * std::log(10), 0.01);
   const double half = 100 - std::sqrt(1e4 - 2000 * std::log(2));  // 20 t - t^2/10 = 200 ln 2
-  // Over time the curve is not quite exponential, so that the end of the fit is off a little.
+  // In time the curve is not exactly exponential, so the end of the fit is slightly off.
   EXPECT_NEAR(number(summary, "t50[s]").value, half, 0.2);
 }
 
-// Windows of 1.25 s: the middle of the one that holds 16.3 s.
+// Windows of 1.25 s: the expected time is the middle of the window that contains 16.3 s.
 TEST(SegregationTimes, TheBedIsMixedMostWhereItsIndexIsLargest)
 {
   const auto summary = segregation_times(history(1000, 1e-5), std::vector<std::size_t>(40, 25));

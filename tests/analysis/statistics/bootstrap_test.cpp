@@ -24,7 +24,7 @@ Estimate interval_of_mean(const Eigen::VectorXd& series, const RunLengths& runs,
   return mean_of(series, Bootstrap(runs, samples, 1)).interval;
 }
 
-/// In how many of 500 trials an interval holds the truth.
+/// Number of trials; Coverage counts those in which an interval contains the truth.
 constexpr int trials = 500;
 struct Coverage {
   double interval = 0, plain = 0;
@@ -43,13 +43,13 @@ Coverage coverage_of_mean(double rho, const RunLengths& runs, double run_scatter
   return share;
 }
 
-/// What is seen of 93 to 97 % in so many trials, three standard deviations of the binomial
-/// distribution either way.
+/// Bounds of an observed coverage if the true one is 93 to 97 %: three standard deviations of the
+/// binomial distribution on either side.
 constexpr double trial_count = trials;
 const double least = 0.93 - 3 * std::sqrt(0.93 * 0.07 / trial_count);  // 0.896
 const double most = 0.97 + 3 * std::sqrt(0.97 * 0.03 / trial_count);   // 0.993
 
-// tau = (1 + rho)/(1 - rho); the estimate from 20000 windows is good to some per cent.
+// tau = (1 + rho)/(1 - rho); the estimate from 20000 windows is accurate to a few per cent.
 TEST(Autocorrelation, TimeOfAFirstOrderSeriesIsTheKnownOne)
 {
   for (const double rho : {0.0, 0.5, 0.8})
@@ -94,9 +94,9 @@ TEST(Bootstrap, ASampleHasAsManyWindowsAsTheRunAndBlocksAreConsecutive)
       EXPECT_EQ(times.row(k).tail(7).sum(), 7);
     }
   }
-  // A block as long as the run leaves one choice.
+  // With a block as long as the run there is only one choice.
   EXPECT_EQ(bootstrap.blocks(10), Eigen::MatrixXd::Ones(50, 17));
-  // Blocks of 3 in 10 windows: window 0 is drawn only together with its neighbour.
+  // Blocks of 3 in 10 windows: window 0 is drawn only together with window 1.
   const auto& threes = bootstrap.blocks(3);
   for (Eigen::Index k = 0; k < threes.rows(); ++k)
     EXPECT_LE(threes(k, 0), threes(k, 1) + 1);  // the last of four blocks is cut to one window
@@ -126,8 +126,8 @@ TEST(Bootstrap, TheSameSeedDrawsTheSameInAnyOrderOfCalls)
   EXPECT_NE(a.blocks(4), other.blocks(4));
 }
 
-// Independent windows, drawn singly: the standard error of a mean is s/sqrt(n), and the interval
-// Student's. 4000 samples know it to 1/sqrt(8000) = 1.1 %; allowed are three times that.
+// Independent windows, drawn one by one: the standard error of a mean is s/sqrt(n), and the interval is
+// Student's. 4000 samples determine it to 1/sqrt(8000) = 1.1 %; the tolerance is three times that.
 TEST(Bootstrap, IndependentWindowsGiveStudentsIntervalOfTheMean)
 {
   const double n = 50;
@@ -145,13 +145,14 @@ TEST(Bootstrap, IndependentWindowsGiveStudentsIntervalOfTheMean)
 
 Eigen::VectorXd plus_and_minus_one()
 {
-  Eigen::VectorXd samples(100);  // of variance 100/99
+  Eigen::VectorXd samples(100);  // samples of variance 100/99
   for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
   return samples;
 }
 
-// tau = 3, i.e. rho = 1/2, blocks of 4, 40 effective windows: m = 10 blocks, so 10/9 for the fitted
-// mean; at the cuts 1 - (1 - 1/16)/(4 x 3/4) = 11/16 is kept; t of 9 degrees of freedom.
+// tau = 3, i.e. rho = 1/2: blocks of 4 and 40 effective windows are m = 10 blocks, so the factor is
+// 10/9 for the fitted mean. At the ends of blocks 1 - (1 - 1/16)/(4 x 3/4) = 11/16 of the variance
+// is kept; Student's t has 9 degrees of freedom.
 TEST(Bootstrap, AnIntervalOfWindowsByHand)
 {
   const auto interval =
@@ -160,8 +161,8 @@ TEST(Bootstrap, AnIntervalOfWindowsByHand)
   EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }
 
-// 4 runs: 4/3 for their mean, t of 3 degrees of freedom; windows and their correlation are nothing
-// to it.
+// 4 runs: the factor is 4/3 for their mean, t has 3 degrees of freedom. Windows and their
+// correlation have no effect.
 TEST(Bootstrap, AnIntervalOfRunsByHand)
 {
   const Bootstrap bootstrap({10, 10, 10, 10}, 100, 1);
@@ -170,7 +171,7 @@ TEST(Bootstrap, AnIntervalOfRunsByHand)
   EXPECT_NEAR(interval.low + interval.high, 10, 1e-12);
 }
 
-// Weights 2, 1 and 1 in runs of 1, 2 and 1 windows: (2 + 2 + 1)^2/(4 + 4 + 1).
+// Weights 2, 1 and 1 in runs of 1, 2 and 1 windows: effective number (2 + 2 + 1)^2/(4 + 4 + 1).
 TEST(Bootstrap, ARunCountsByItsWeight)
 {
   const Eigen::Vector4d weight(2, 1, 1, 1);
@@ -191,7 +192,8 @@ TEST(Coverage, OfPlainPercentilesOfCorrelatedWindowsIsTooLow)
   EXPECT_LT(coverage_of_mean(0.8, {120}, 0).plain, least);
 }
 
-// 8 runs of 24 windows whose own scatter is sqrt(3/24) = 0.35: alike, and three times as different.
+// 8 runs of 24 windows; a run's mean has the error sqrt(3/24) = 0.35. Runs are equal, or differ by
+// three times that.
 TEST(Coverage, OfSeveralRunsIsAsSaidWhetherOrNotTheyDiffer)
 {
   const RunLengths runs(8, 24);
@@ -216,9 +218,9 @@ TEST(Coverage, OfTheStrengthOfSegregationIsThatOfAMean)
   EXPECT_LT(share, most);
 }
 
-// While layers segregate their compositions drift, and where B depends on composition so does what
-// each window says of it. That is not noise: independent windows stay independent, and the interval
-// is as narrow as their scatter lets it be.
+// While layers segregate, their compositions drift. If B depends on composition, so do the values
+// of the windows. This trend is not noise: independent windows stay independent, and the interval
+// is as narrow as their scatter allows.
 TEST(Coverage, OfAFlowThatSegregatesIsThatOfASteadyOne)
 {
   Ar1 noise(0.5);
@@ -242,7 +244,7 @@ TEST(Bootstrap, CorrelatedWindowsAreDrawnInLongerBlocks)
   EXPECT_LE(dependence_of_mean(Ar1(0).series(120), {120}).block, 3u);
 }
 
-// The variance of a mean of n windows is tau/n; one long series knows it well.
+// The variance of a mean of n windows is tau/n; one long series determines it accurately.
 TEST(Bootstrap, CorrelationWidensTheIntervalByTheRootOfItsTime)
 {
   const auto interval = interval_of_mean(Ar1(0.8).series(5000), {5000}, 2000);
@@ -263,7 +265,7 @@ TEST(Bootstrap, TooFewWindowsHaveNoInterval)
 {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
   EXPECT_TRUE(std::isnan(interval_of_mean(one, {1}, 200).low));
-  // Many windows of which one alone has weight.
+  // Many windows, only one of which has weight.
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(50);
   weight[3] = 1;
   EXPECT_EQ(dependence(Eigen::VectorXd::Zero(50), weight, {50}).effective_windows, 1);
@@ -282,18 +284,17 @@ TEST(Bootstrap, DoubtIsVoicedWhereWindowsAreTooFewForTheirCorrelation)
   const Bootstrap one_run({48}, 200, 1);
   EXPECT_EQ(
       one_run.doubt({5, 10, 48, 1}),
-      "48 windows are too few to tell how long they depend on each other; with fewer than 120 "
-      "an interval of 95 % over windows holds the truth less often if that is longer than it "
-      "seems");
+      "48 windows are too few to measure how long they are correlated; with fewer than 120 an "
+      "interval of 95 % over windows contains the true value less often if that time is longer");
   EXPECT_EQ(one_run.doubt({12, 10, 48, 1}),
             "48 windows with an autocorrelation time of 12 windows are worth 4 independent ones; "
-            "with fewer than 8 an interval of 95 % holds the truth less often");
+            "with fewer than 8 an interval of 95 % contains the true value less often");
   EXPECT_TRUE(one_run.doubt({12, 48, 48, 1}).ends_with("; too few for an interval"));
   EXPECT_EQ(Bootstrap({48}, 0, 1).doubt({12, 10, 48, 1}), "");
   EXPECT_EQ(
       Bootstrap({3}, 200, 1).doubt({1, 1, 3, 1}),
       "3 windows with an autocorrelation time of 1 window are worth 3 independent ones; with fewer "
-      "than 8 an interval of 95 % holds the truth less often");
+      "than 8 an interval of 95 % contains the true value less often");
   EXPECT_EQ(
       Bootstrap({3}, 200, 1).doubt({3, 3, 3, 1}),
       "3 windows with an autocorrelation time of 3 windows are worth 1 independent one; too few for "
@@ -307,7 +308,7 @@ TEST(Bootstrap, OneWindowIsOneObservation)
             "one window is one observation, too few for an interval");
 }
 
-// Eight runs of ten windows, three of which tell as much as one.
+// Eight runs of ten windows; three windows have the information of one.
 TEST(Bootstrap, DoubtIsVoicedWhereEachRunIsTooShortForItsCorrelation)
 {
   const Bootstrap bootstrap(RunLengths(12, 10), 200, 1);
@@ -319,7 +320,7 @@ TEST(Bootstrap, DoubtIsVoicedWhereEachRunIsTooShortForItsCorrelation)
 TEST(Bootstrap, DoubtIsVoicedWhereRunsAreTooFew)
 {
   EXPECT_EQ(Bootstrap({48, 48}, 200, 1).doubt({1, 1, 96, 2}),
-            "2 runs, worth 2 of equal weight, tell little of how runs differ; more runs give a "
+            "2 runs, worth 2 of equal weight, show little of how runs differ; more runs give a "
             "narrower interval");
   EXPECT_EQ(Bootstrap(RunLengths(4, 48), 200, 1).doubt({1, 1, 192, 4}), "");
 }

@@ -6,7 +6,7 @@
 namespace grseg {
 namespace {
 
-/// phi_L from 0.01 to 0.99.
+/// Values of phi_L from 0.01 to 0.99.
 Eigen::VectorXd compositions(Eigen::Index count)
 {
   return Eigen::VectorXd::LinSpaced(count, 0.01, 0.99);
@@ -25,7 +25,7 @@ Eigen::VectorXd weights(Eigen::Index count)
   return values;
 }
 
-// A power law y = k x^a and a B that grows with phi_L are known from the composition alone.
+// A power law y = k x^a and a B that grows linearly with phi_L follow from the composition alone.
 TEST(CompositionNoise, APowerLawAndALineOverCompositionAreNone)
 {
   const auto phi = compositions(50);
@@ -51,7 +51,7 @@ TEST(CompositionNoise, OfOneCompositionIsTheDeviationFromTheMean)
   EXPECT_LT((composition_noise(phi, value, weight) - deviation).norm(), 1e-12);
 }
 
-// Ten points per coefficient: fewer than 30 points are not fitted away.
+// Each coefficient needs ten points: with fewer than 30 points no trend is fitted.
 TEST(CompositionNoise, OfFewPointsIsTheDeviationFromTheMean)
 {
   const auto phi = compositions(29);
@@ -72,8 +72,8 @@ double degrees_of_four_groups(const Of& of)
   return degrees_of_composition(phi, Eigen::VectorXd::Ones(40), group);
 }
 
-// Of groups with a composition of their own the fit explains what a line, a curve and the mean can: 3
-// of 4 degrees. Of groups that are alike it takes their mean alone.
+// If groups have different compositions, the fit explains what line, curve and mean can: 3 of 4
+// degrees. If groups are alike it only removes their mean.
 TEST(CompositionNoise, TakesThreeDegreesOfGroupsThatAreApartAndOneOfGroupsThatAreAlike)
 {
   EXPECT_NEAR(degrees_of_four_groups([](double g, double) { return 0.2 + 0.15 * g; }), 3, 1e-9);

@@ -15,7 +15,7 @@ Eigen::VectorXd frames(Eigen::Index count, double interval, double first = 0)
                                     first + static_cast<double>(count - 1) * interval);
 }
 
-/// Residuals as a bed has them: an AR(1) series of standard deviation `size`.
+/// Residuals as in a bed: an AR(1) series of standard deviation `size`.
 Eigen::VectorXd noise(Eigen::Index count, double size, double correlation, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -31,7 +31,7 @@ Eigen::VectorXd rise(const Eigen::VectorXd& x, double start, double end, double 
   return end - (end - start) * (-(x.array() - x[0]) / scale).exp();
 }
 
-// Also where the run is much longer or shorter than the time, and for a fall.
+// Also if the run is much longer or shorter than the time, and if the series falls.
 TEST(ExponentialApproach, ATimeIsFoundToRoundOff)
 {
   for (const double scale : {0.8, 12.0, 60.0, 400.0})
@@ -45,7 +45,7 @@ TEST(ExponentialApproach, ATimeIsFoundToRoundOff)
     }
 }
 
-// The times are those of which one is tried first.
+// These are times that the search tries first.
 TEST(ExponentialApproach, AFirstGuessThatIsRightIsKept)
 {
   const auto t = frames(1201, 0.05);
@@ -76,8 +76,8 @@ TEST(ExponentialApproach, AWayThatIsNotGoneHasNoTime)
   EXPECT_TRUE(std::isnan(time_to(0.9, fit, t, y).value));
 }
 
-// 95 of 100, less or more by three standard deviations of such a count, and the estimate of the
-// correlation costs a little.
+// 95 of 100, within three standard deviations of such a count; estimating the correlation costs a
+// little coverage.
 TEST(ExponentialApproach, TheIntervalHoldsTheTruthOfCorrelatedResiduals)
 {
   const auto t = frames(1000, 0.06);
@@ -106,7 +106,7 @@ TEST(ExponentialApproach, AStraightLineHasNoTime)
   const auto t = frames(400, 0.05);
   const Eigen::VectorXd y = 0.05 + 0.003 * t.array() + noise(t.size(), 0.002, 0.5, 7).array();
   const auto fit = fit_approach(t, y);
-  EXPECT_EQ(fit.trouble, "cannot be told from a straight line");
+  EXPECT_EQ(fit.trouble, "cannot be distinguished from a straight line");
   EXPECT_TRUE(std::isnan(fit.scale.value));
   EXPECT_TRUE(std::isnan(time_to(0.5, fit, t, y).value));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Autocorrelation times, blocks and standard errors of series short enough to be worked out on paper.
+// Autocorrelation times, blocks and standard errors of series short enough for calculation by hand.
 #include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-/// Three up, three down, twice. Correlations 5/12 at lag 1, -2/12 at lag 2, -9/12 at lag 3.
+/// Three times +1, three times -1, twice. Correlations 5/12 at lag 1, -2/12 at lag 2, -9/12 at lag 3.
 Eigen::VectorXd in_threes()
 {
   Eigen::VectorXd series(12);
@@ -21,15 +21,15 @@ Eigen::VectorXd in_threes()
   return series;
 }
 
-// Kendall: rho = (12 x 5/12 + 1)/(12 - 3) = 2/3, and (1 + 2/3)/(1 - 2/3) = 5. The sum breaks off at
-// lag 3 with 1 + 2 (5 - 2 - 9)/12 = 0.
+// Kendall's correction: rho = (12 x 5/12 + 1)/(12 - 3) = 2/3, and (1 + 2/3)/(1 - 2/3) = 5. The sum
+// ends at lag 3, where it is 1 + 2 (5 - 2 - 9)/12 = 0.
 TEST(AutocorrelationByHand, TheTimeFromNeighboursIsFreedOfItsBias)
 {
   EXPECT_NEAR(autocorrelation_time(in_threes(), {12}), 5, 1e-12);
 }
 
-// x_k = e_k + e_(k-2): nothing between neighbours, 1/2 at lag 2, hence 1 + 2/2. An AR(1) series of
-// the same neighbours would be independent.
+// x_k = e_k + e_(k-2): no correlation between neighbours, 1/2 at lag 2, hence the time 1 + 2/2. An
+// AR(1) series with the same correlation of neighbours would be independent.
 TEST(AutocorrelationByHand, WhatNeighboursDoNotTellIsSummedOnBothSides)
 {
   std::mt19937 random(3);
@@ -40,8 +40,9 @@ TEST(AutocorrelationByHand, WhatNeighboursDoNotTellIsSummedOnBothSides)
   EXPECT_NEAR(autocorrelation_time(kick.head(n) + kick.tail(n), {n}), 2, 0.15);
 }
 
-// Correlations 3/6 at lag 2, 0 at lag 4, -3/6 at lag 6, where 6 is no less than five times
-// 1 + 2 (3 + 0 - 3)/6 = 1; times 1 + (2 x 6 + 1)/12. From neighbours alone it would be 1.25.
+// Correlations 3/6 at lag 2, 0 at lag 4, -3/6 at lag 6. The sum ends there, because 6 is not less
+// than five times 1 + 2 (3 + 0 - 3)/6 = 1; the correction is 1 + (2 x 6 + 1)/12. From neighbours
+// alone the time would be 1.25.
 TEST(AutocorrelationByHand, TheSumIsFreedOfWhatSubtractingTheMeanTakes)
 {
   Eigen::VectorXd series(12);
@@ -58,9 +59,9 @@ TEST(DependenceByHand, OfTwoTheWiderIntervalCounts)
   EXPECT_EQ(of.effective_runs, 1.2);
 }
 
-// Blocks of 3 out of 10 windows begin at 0 to 7 with equal chance; three of them, and one window of a
-// fourth, make a sample. Window 0 is in a block that begins at 0 (and is a window of the fourth): 4/8.
-// Window 9 is in one that begins at 7, and never in the fourth: 3/8.
+// Blocks of 3 out of 10 windows begin at 0 to 7 with equal probability; a sample is three blocks and
+// one window of a fourth block. Window 0 is in a block that begins at 0 (and may be the window of the
+// fourth): 4/8. Window 9 is in a block that begins at 7, and never in the fourth: 3/8.
 TEST(BootstrapByHand, TheLastBlockIsDrawnAsOftenAsTheFirst)
 {
   const Bootstrap bootstrap({10}, 8000, 1);
@@ -69,18 +70,18 @@ TEST(BootstrapByHand, TheLastBlockIsDrawnAsOftenAsTheFirst)
   EXPECT_NEAR(times.col(9).mean(), 3. / 8, 0.04);
 }
 
-// How often the two runs' windows with the same number are drawn is not correlated: of 20 x 2000 pairs of
-// counts of variance near 1 the mean product is 0 to 1/200.
+// The numbers of times that windows with the same number are drawn in two runs are uncorrelated: of 20 x
+// 2000 pairs of counts with variance near 1 the mean product is 0 to 1/200.
 TEST(BootstrapByHand, RunsAreDrawnIndependentlyOfEachOther)
 {
   const Bootstrap bootstrap({20, 20}, 2000, 1);
   const Eigen::ArrayXXd excess = bootstrap.blocks(1).array() - 1;
   EXPECT_NEAR((excess.leftCols(20) * excess.rightCols(20)).mean(), 0, 0.03);
-  EXPECT_NEAR(excess.square().mean(), 1 - 1. / 20, 0.05);  // binomial
+  EXPECT_NEAR(excess.square().mean(), 1 - 1. / 20, 0.05);  // binomial variance
 }
 
-// As AnIntervalOfWindowsByHand, but of two runs: 40 effective windows in blocks of 4 are 10 blocks, two
-// means have been fitted, 8 degrees of freedom are left; rho = 1/2, hence 11/16 at the cuts.
+// As AnIntervalOfWindowsByHand, but with two runs: 40 effective windows in blocks of 4 are 10 blocks; two
+// means have been fitted, so 8 degrees of freedom are left; rho = 1/2, hence 11/16 at the ends of blocks.
 TEST(BootstrapByHand, EveryRunCostsTheWindowsOneDegreeOfFreedom)
 {
   Eigen::VectorXd samples(100);  // of variance 100/99
@@ -91,7 +92,7 @@ TEST(BootstrapByHand, EveryRunCostsTheWindowsOneDegreeOfFreedom)
   EXPECT_NEAR(5 - interval.low, expected, 1e-5);
 }
 
-// 12 windows worth 12/5, less one fitted mean: 1.4 degrees; variance 12 x 5 x 2.4/1.4.
+// 12 windows worth 12/5 independent ones, less one fitted mean: 1.4 degrees; variance 12 x 5 x 2.4/1.4.
 TEST(StandardErrorByHand, IsThatOfIndependentWindowsTimesTheRootOfTheTime)
 {
   const auto error = standard_error(in_threes(), 1);
@@ -99,8 +100,8 @@ TEST(StandardErrorByHand, IsThatOfIndependentWindowsTimesTheRootOfTheTime)
   EXPECT_NEAR(error.error, std::sqrt(12 * 5 * 2.4 / 1.4), 1e-12);
 }
 
-// Differences of neighbours 2, 2, 2; half of their squares 6; 4/3 of it, and 2/3 x 3 degrees, for which
-// Student's quantile is 4.302653.
+// Differences of neighbours are 2, 2, 2; half the sum of their squares is 6. The variance is 4/3 of it
+// with 2/3 x 3 degrees of freedom, for which Student's quantile is 4.302653.
 TEST(StandardErrorByHand, AboutATrendIsFromHalfTheSquaredDifferencesOfNeighbours)
 {
   const auto error = error_about_trend(Eigen::Vector4d(1, -1, 1, -1));
@@ -111,8 +112,8 @@ TEST(StandardErrorByHand, AboutATrendIsFromHalfTheSquaredDifferencesOfNeighbours
   EXPECT_NEAR(5 - around.low, 4.302653 * std::sqrt(8.), 1e-5);
 }
 
-// The density of Student's t with 0.5 degrees of freedom is Gamma(3/4)/(sqrt(pi/2) Gamma(1/4)) (1 + 2 t^2)^(-3/4):
-// far out the tail is that constant times 2^(-3/4) t^(-1/2) 2, from which 0.025 at t = 164.56.
+// The density of Student's t with 0.5 degrees of freedom is Gamma(3/4)/(sqrt(pi/2) Gamma(1/4)) (1 + 2
+// t^2)^(-3/4). Far out, the tail is this constant times 2^(-3/4) t^(-1/2) 2, which is 0.025 at t = 164.56.
 TEST(StandardErrorByHand, WithHalfADegreeThereIsAnIntervalAndWithLessThereIsNone)
 {
   constexpr double pi = 3.14159265358979324;
@@ -124,8 +125,8 @@ TEST(StandardErrorByHand, WithHalfADegreeThereIsAnIntervalAndWithLessThereIsNone
   EXPECT_EQ((StandardError{2, 0.5}).around(5).high, (StandardError{2, 0.5}).around(5).high);
 }
 
-// Eleven points on an exponential, and off it by what no change of its three parameters can
-// imitate: the scatter is the root of the squares over 11 - 3.
+// Eleven points on an exponential plus deviations that no change of its three parameters can
+// imitate: the scatter is the root of the sum of squares over 11 - 3.
 TEST(ExponentialApproachByHand, ItsScatterCountsThreeFittedNumbers)
 {
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(11, 0, 3);

@@ -22,7 +22,7 @@ TEST(LeastSquares, AreTheShortestWhereColumnsDependOnEachOther)
 {
   Eigen::MatrixXd a(2, 2);
   a << 1, 2, 2, 4;
-  // x + 2 y = 5 holds on a line, whose point next to the origin is (1, 2).
+  // x + 2 y = 5 is true on a line, whose point nearest to the origin is (1, 2).
   const LeastSquares dependent(a, 1e-6);
   const auto x = dependent.solve(Eigen::Vector2d(5, 10));
   EXPECT_EQ(dependent.rank(), 1);

@@ -24,7 +24,8 @@ TEST(RunScatter, OfValuesIsTheStandardErrorOfTheirMean)
   EXPECT_TRUE(std::isnan(scatter_of_values(list({1})).error));
 }
 
-// What all runs of a mixture add because the mixture is unlike others is not their scatter.
+// A deviation that all runs of a mixture share, because the mixture differs from others, is not
+// scatter of runs.
 TEST(RunScatter, IsAboutWhatARunLikeItsMixtureWouldAdd)
 {
   const auto weight = list({1, 1, 1, 1});
@@ -44,7 +45,7 @@ TEST(RunScatter, ErrorsAddUpInSquaresWithDegreesBetweenThoseOfOnePartAndOfAll)
   EXPECT_NEAR(one.degrees, 3, 1e-14);
   const auto equal = added({{3, 5}, {3, 5}});
   EXPECT_NEAR(equal.error, std::sqrt(18), 1e-15);
-  EXPECT_NEAR(equal.degrees, 10, 1e-14);  // 2 (5 + 2) - 2 = 12, but there are 10
+  EXPECT_NEAR(equal.degrees, 10, 1e-14);  // 2 (5 + 2) - 2 = 12, but there are only 10
   const auto unequal = added({{1, 5}, {std::sqrt(3), 5}});
   EXPECT_NEAR(unequal.degrees, 16 / (1.0 / 7 + 9.0 / 7) - 2, 1e-13);
   EXPECT_NEAR(added({{1, 5}, {1e-9, 1}}).degrees, 5, 1e-12);

@@ -12,8 +12,8 @@
 namespace grseg {
 namespace {
 
-// A chain of grains under compression points at the axis: the stress across the annuli is all there
-// is, whatever the direction.
+// A chain of grains under compression points at the axis: the stress across the annuli is the only
+// component, whatever the direction of the chain.
 TEST(AnnuliStress, ARadialChainPressesOutward)
 {
   const Vec2 axis{5, 5};
@@ -35,7 +35,7 @@ TEST(AnnuliStress, ARadialChainPressesOutward)
   }
 }
 
-// Far from its axis an annulus is a layer.
+// Far from the axis an annulus is nearly a layer.
 TEST(AnnuliStress, FarFromItsAxisIsThatOfLayers)
 {
   const Packing packing = large_on_small();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a contact is shared out between its two grains.
+// Shares of a contact's stress for its two grains.
 #include "analysis/stress/partition_rule.hpp"
 #include "tests/analysis/contact_packings.hpp"
 
@@ -39,7 +39,7 @@ TEST(ContactShares, GrainsOfOneSpeciesAreCutWhereTheyTouchUnderAnyRule)
   }
 }
 
-// What the grains have, added up by species, is what the tables of sums have under the same rule.
+// The shares of grains, added up by species, equal the stresses from tables of sums under the same rule.
 TEST(ContactShares, AddUpToTheStressOfTheSpecies)
 {
   Packing packing;

@@ -10,9 +10,9 @@
 namespace grseg {
 namespace {
 
-// The branch from 1.25 to 2.75 spread by half a unit up and down: what begins at y <= 1.5 reaches
-// below 1, by 1.5 - y, a 48th of all. The large grain's part reaches below 2 by 2.5 - y and above 3
-// by y - 2.5.
+// The branch from 1.25 to 2.75 is spread by half a unit up and down. A point at y <= 1.5 of it
+// reaches below 1 by 1.5 - y: together a 48th of the whole. The large grain's part reaches below 2
+// by 2.5 - y and above 3 by y - 2.5.
 TEST(KernelStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
 {
   const Kernel box(KernelShape::heaviside, 0.5);
@@ -32,8 +32,8 @@ TEST(KernelStress, AKernelSpreadsTheBranchAndEachGrainsPartOfIt)
   EXPECT_EQ(stress.mean(1).contacts[1], 1);
 }
 
-// Weinhart et al. (2012): a contact with the base is stress from the grain's centre to the contact
-// point, here 1.25 to 0.75; the rest of the branch is none of the flow's.
+// Weinhart et al. (2012): a contact with the base is stress of the flow from the grain's centre to
+// the contact point, here 1.25 to 0.75; the rest of the branch does not belong to the flow.
 TEST(KernelStress, UnderAKernelTheBaseBranchEndsAtTheContactPoint)
 {
   const auto stress = stress_of(small_on_base(), Assignment::kernel);
@@ -74,7 +74,7 @@ TEST(KernelStress, ANarrowGaussianIsTheBranchAssignment)
   EXPECT_GT(difference, 1e-3);
 }
 
-// Momentum balance of the field of a kernel: the net force on a grain acts where the kernel is.
+// Momentum balance of the coarse-grained field: the net force on a grain is spread by the kernel.
 TEST(KernelStress, UnderAKernelTheSumIsTheSpreadForceThroughTheLayer)
 {
   const Packing packing = heap();

@@ -9,7 +9,8 @@
 
 namespace grseg {
 
-/// The kinetic stress of frames about their mean, in layers of 1; `bin`: of the profile.
+/// Kinetic stress of frames about their mean flow, in layers of height 1; `bin`: bin of the
+/// velocity profile.
 inline KineticStress<2> kinetic_of(const std::vector<Packing>& frames, MeanFlow flow, double bin)
 {
   const Layers layers(1, 10);

@@ -55,7 +55,7 @@ double largest(const KineticStress<2>& stress)
   return most;
 }
 
-// However the grains lie in their bins.
+// This is true for any positions of grains in their bins.
 TEST(KineticStress, ALinearShearHasNoFluctuationsAboutItsProfile)
 {
   const Packing shear = column([](double y) { return Vec2{5 + 2 * y, 0.1 - 0.3 * y}; });
@@ -63,7 +63,7 @@ TEST(KineticStress, ALinearShearHasNoFluctuationsAboutItsProfile)
   EXPECT_GT(largest(kinetic({shear}, MeanFlow::layer)), 1e-3);
 }
 
-// Clockwise, at Omega r; as motion over a base it is all fluctuation.
+// The drum turns clockwise at Omega r; described as motion over a base, all of it is fluctuation.
 TEST(KineticStress, ADrumThatTurnsAsAWholeHasNoFluctuationsInAnnuli)
 {
   const Vec2 axis{3, 2};
@@ -94,7 +94,7 @@ TEST(KineticStress, APlugHasNoFluctuationsAboutAnyMean)
 }
 
 // N equal grains at equal distances over the thickness h: sum m (du)^2 = M (du/dy h)^2 (1 -
-// 1/N^2)/12, the bias nu rho (du/dy h)^2/12 of a mean over the layer.
+// 1/N^2)/12, i.e. the bias nu rho (du/dy h)^2/12 of a mean over the layer.
 TEST(KineticStress, TheLayerMeanLeavesTheShearInside)
 {
   constexpr int count = 40;
@@ -121,7 +121,7 @@ TEST(KineticStress, TwoGrainsThatPartCarryTheirFluctuations)
   packing.grain(Species::small, 0.1, {2, 0.5}, {2 - 0.3, -0.4}, 3);
   const double mass = pi * 0.01;
   for (const auto flow : all_means) {
-    if (flow == MeanFlow::instant_unbiased) continue;  // asks for three
+    if (flow == MeanFlow::instant_unbiased) continue;  // it needs three grains
     const auto stress = kinetic({packing}, flow);
     const auto mean = stress.mean(0, Species::small);
     Tensor2 expected;
@@ -138,10 +138,10 @@ TEST(KineticStress, SpeciesThatSlideThroughEachOtherAreQuietAboutTheirOwnMeans)
   Packing packing;
   packing.grain(Species::large, 0.2, {1, 0.5}, {1, 0});
   packing.grain(Species::small, 0.1, {2, 0.5}, {6, 0});
-  const double mass = pi * 0.01;  // of the small one; the large one has four times that
+  const double mass = pi * 0.01;  // mass of the small grain; the large one has four times that
   EXPECT_LT(largest(kinetic({packing}, MeanFlow::species)), 1e-28);
   for (const auto flow : {MeanFlow::profile, MeanFlow::layer}) {
-    const auto stress = kinetic({packing}, flow);  // about the mean of mass, u = 2
+    const auto stress = kinetic({packing}, flow);  // about the mass-weighted mean, u = 2
     EXPECT_NEAR(stress.flow(0).u, 2, 1e-14);
     EXPECT_NEAR(stress.mean(0, Species::small).about_mean.kinetic(0, 0), mass * 16, 1e-14);
     EXPECT_NEAR(stress.mean(0, Species::large).about_mean.kinetic(0, 0), 4 * mass, 1e-14);
@@ -179,7 +179,7 @@ TEST(KineticStress, AnObserverWhoMovesAlongSeesTheSameFluctuations)
 TEST(KineticStress, ACurvedProfileIsFollowedAndFluctuationsAreFound)
 {
   const auto curve = [](double y) { return Vec2{y * (6 - y), 0}; };
-  // The line through bins 1/8 thick misses a parabola of curvature 2 by about (1/8)^2/4.
+  // The linear interpolation over bins 1/8 thick misses a parabola of curvature 2 by about (1/8)^2/4.
   const auto quiet = kinetic({column(curve)}, MeanFlow::profile);
   EXPECT_LT(quiet.mean(1, Species::small).about_mean.kinetic(0, 0),
             0.01 * 0.01 * quiet.mean(1, Species::small).mass);
@@ -190,7 +190,7 @@ TEST(KineticStress, ACurvedProfileIsFollowedAndFluctuationsAreFound)
       mass += noisy.mean(n, species).mass;
       energy += noisy.mean(n, species).about_mean.kinetic.trace();
     }
-  // 24 bins of about 12 grains take a twelfth of the variance out.
+  // 24 bins of about 12 grains remove a twelfth of the variance.
   EXPECT_NEAR(energy / mass, 2 * 0.09, 0.05);
 }
 
@@ -215,7 +215,8 @@ TEST(KineticStress, AProfilePassesOverEmptyHeights)
   EXPECT_LT(largest(kinetic({packing}, MeanFlow::profile)), 1e-28);
 }
 
-// The layer's mean is the same function of height in both frames, so only the beat goes.
+// The layer's mean is the same function of height in both frames, so only the common oscillation is
+// removed.
 TEST(KineticStress, TheInstantaneousMeanTakesAwayWhatTheLayerDoesTogether)
 {
   const auto beat = [](double kick) {
@@ -235,7 +236,7 @@ TEST(KineticStress, TheInstantaneousMeanTakesAwayWhatTheLayerDoesTogether)
     }
 }
 
-// Of n grains with independent velocities: a mean of their own takes 1/n of the variance.
+// With n grains of independent velocities, subtracting their own mean removes 1/n of the variance.
 TEST(KineticStress, TheInstantaneousMeanTakesTheShareOfOneGrain)
 {
   std::vector<Packing> frames(2);
@@ -250,7 +251,7 @@ TEST(KineticStress, TheInstantaneousMeanTakesTheShareOfOneGrain)
   EXPECT_NEAR(instant.mean(0, Species::small).about_mean.kinetic(0, 0), mass * 9 / 2, 1e-15);
 }
 
-// Whatever the mean that was asked for.
+// This is true for any choice of the mean flow.
 TEST(KineticStress, TheLayerBiasIsWhatTheLayerMeanAddsToTheProfile)
 {
   const std::vector<Packing> frames{column(
@@ -278,7 +279,7 @@ TEST(KineticStress, TheLayerBiasIsWhatTheLayerMeanAddsToTheProfile)
   }
 }
 
-// N equal grains at equal distances: the bias is (1 - 1/N^2) of mass (du/dy h)^2/12.
+// N equal grains at equal distances: the bias is (1 - 1/N^2) mass (du/dy h)^2/12.
 TEST(KineticStress, TheBiasOfALinearShearIsThatOfItsSlope)
 {
   constexpr int count = 50;
@@ -298,8 +299,8 @@ TEST(KineticStress, TheBiasOfALinearShearIsThatOfItsSlope)
   EXPECT_NEAR(bias, of_shear * (1 - 1.0 / (count * count)), 1e-14);
 }
 
-/// 40000 small and 20000 large grains with Maxwell's velocities about a shear: variance `small` and
-/// `large` of each component, and of r times the spin twice as much.
+/// 40000 small and 20000 large grains with Maxwellian velocities about a shear flow: each component
+/// has the variance `small` or `large`, r times the spin twice as much.
 Packing maxwell(double small, double large)
 {
   std::mt19937 random(5);
@@ -316,7 +317,7 @@ Packing maxwell(double small, double large)
   return packing;
 }
 
-// The standard error of a variance of n numbers is sqrt(2/n), 1.7 % of 6667 in a layer.
+// The standard error of a variance of n numbers is sqrt(2/n): 1.7 % for 6667 in a layer.
 TEST(KineticStress, MaxwellsVelocitiesHaveTheirTemperature)
 {
   const auto stress = kinetic({maxwell(0.25, 0.09)}, MeanFlow::profile);
@@ -346,8 +347,8 @@ TEST(KineticStress, EquipartitionIsAQuestionOfEnergyPerGrain)
   EXPECT_TRUE(kinetic({small_alone}, MeanFlow::profile).equipartition(0).array().isNaN().all());
 }
 
-// A cloud of spheres that moves as a whole: what is left are its own fluctuations, of which those of
-// rotation are 2/5 m r^2 dw^2 about each axis.
+// A cloud of spheres that moves as a whole: only its own fluctuations are counted; the rotational
+// part is 2/5 m r^2 dw^2 about each axis.
 TEST(KineticStress, OfSpheresHasThreeComponentsAndThreeSpins)
 {
   PackingOf<3> packing;

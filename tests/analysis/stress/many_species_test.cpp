@@ -41,7 +41,7 @@ ContactSums<D> sums_of(const PackingOf<D>& packing, Assignment assignment, std::
   return sums;
 }
 
-/// Unit vectors along the axes and oblique.
+/// Unit vectors, along the axes and oblique.
 template <int D>
 std::vector<Vector<D>> directions()
 {
@@ -51,8 +51,8 @@ std::vector<Vector<D>> directions()
     return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6, 0.64, 0.48}, {-0.36, 0.48, 0.8}};
 }
 
-/// Contacts that ignore size: `ends` of each species pair at random, all with the same forces. Ends
-/// are in proportion to phi/d, of discs as of spheres.
+/// Contacts that ignore size: `ends` of each species pair at random, all with the same forces. The
+/// number of ends is proportional to phi/d, for discs and for spheres.
 template <int D>
 PackingOf<D> neutral(const std::vector<int>& ends, const std::vector<double>& diameters)
 {
@@ -77,7 +77,7 @@ PackingOf<D> neutral(const std::vector<int>& ends, const std::vector<double>& di
   return packing;
 }
 
-// mixtures.md 1 and Staron & Phillips (2015): B = 0, whatever the sizes and however many.
+// Staron & Phillips (2015): B = 0 for any sizes and any number of species.
 TYPED_TEST(ManySpecies, OfNeutralContactsCarryTheirVolumeShareBySize)
 {
   constexpr int D = TypeParam::value;
@@ -98,7 +98,7 @@ TYPED_TEST(ManySpecies, OfNeutralContactsCarryTheirVolumeShareBySize)
               << rule << ", species " << s;
         }
       }
-    // By halves the larger species carry less than that.
+    // Under half, larger species carry less than their volume share.
     const auto half = partial_stress(sums_of<D>(packing, Assignment::contact_point, ends.size()),
                                      parse_rule("half"));
     EXPECT_LT(half.of_species.back()(1, 1) / half.total(1, 1),
@@ -106,8 +106,8 @@ TYPED_TEST(ManySpecies, OfNeutralContactsCarryTheirVolumeShareBySize)
   }
 }
 
-/// Grains of five species at random, near their species' size, contacts of any forces among them and
-/// with the base.
+/// Grains of five species at random positions with radii near the species' size; contacts with
+/// random forces between them and with the base.
 template <int D>
 PackingOf<D> random_packing(unsigned seed)
 {

@@ -53,7 +53,7 @@ double cell(const Table& table, std::size_t row, const std::string& column)
   return table.rows.at(row).at(table.column(column));
 }
 
-/// What the Error says that merging ends with; "" where it ends well.
+/// Message of the Error thrown while merging; "" if there is none.
 template <class Error>
 std::string sentence(const std::vector<Table>& tables)
 {
@@ -83,7 +83,7 @@ TEST(MergeTables, OneWindowOfTwoRunsIsTheirMeanWeightedByFrames)
   EXPECT_EQ(cell(t, 0, "y1"), 0.02);
 }
 
-// The frames in which the layer held nothing count, as they do within a run.
+// Frames in which the layer was empty count, as they do within a run.
 TEST(MergeTables, ALayerThatOneRunDoesNotReachIsEmptyThere)
 {
   const auto t =
@@ -100,7 +100,7 @@ TEST(MergeTables, WindowsStayApartUnlessAllAreAsked)
                                   table("b", {row(3, 0, 10, 6)})};
   const auto apart = merged(tables), together = merged(tables, true);
   ASSERT_EQ(apart.rows.size(), 2u);
-  EXPECT_EQ(apart.rows[0], tables[0].rows[0]);  // not a bit changes in a window of one run
+  EXPECT_EQ(apart.rows[0], tables[0].rows[0]);  // a window of one run is not changed in any bit
   EXPECT_DOUBLE_EQ(cell(apart, 1, "A_LL_yy"), 4 * 1.1);
   ASSERT_EQ(together.rows.size(), 1u);
   EXPECT_EQ(cell(together, 0, "frames"), 30);
@@ -113,13 +113,13 @@ TEST(MergeTables, WindowsStayApartUnlessAllAreAsked)
 TEST(MergeTables, TimesThatDifferByRoundingAreTheSameWindow)
 {
   auto b = table("b", {row(3, 0, 10, 3)});
-  b.rows[0][0] = 0.3 - 1e-15;  // where a has 0.1 * 3
+  b.rows[0][0] = 0.3 - 1e-15;  // table a has 0.1 * 3 here
   const auto a = table("a", {row(3, 0, 10, 1)});
   ASSERT_NE(a.rows[0][0], b.rows[0][0]);
   EXPECT_EQ(merged({a, b}).rows.size(), 1u);
 }
 
-// As of a run and its continuation from t = 2 s on: 2.2 - 2 is 0.20000000000000018.
+// As for a run and its continuation from t = 2 s on: 2.2 - 2 is 0.20000000000000018.
 TEST(MergeTables, AWindowThatWasWrittenAsADifferenceOfTimesIsThatOfTheOthers)
 {
   auto a = table("a", {row(0, 0, 10, 1)}), b = table("b", {row(3, 0, 10, 3)});
@@ -129,7 +129,7 @@ TEST(MergeTables, AWindowThatWasWrittenAsADifferenceOfTimesIsThatOfTheOthers)
   b.header[5].second = "0.101";
   EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "'# window: 0.1' and '# window: 0.101'"));
   b.header[5].second = "0.1";
-  b.header[4].second = "0.019999999999999997";  // 4 times 0.005 by another way
+  b.header[4].second = "0.019999999999999997";  // 4 times 0.005, computed differently
   EXPECT_EQ(merged({a, b}).rows.size(), 2u);
 }
 
@@ -142,7 +142,7 @@ TEST(MergeTables, AllWindowsTogetherMayHaveHadAnyLength)
   EXPECT_EQ(cell(t, 0, "frames"), 40);
 }
 
-// Nothing in them says that a and b are different runs; c has another seed than d.
+// The tables do not show whether a and b are different runs; c has another seed than d.
 TEST(MergeTables, SayWhereTablesMayBeOfOneRun)
 {
   const auto doubt = merged({table("a", {row(0, 0, 10, 1)}), table("b", {row(0, 0, 30, 5)})});
@@ -217,12 +217,13 @@ TEST(MergeTables, TablesMadeDifferentlyAreRefusedWithBothNames)
 TEST(MergeTables, TheSameTimeOfOneRunDoesNotCountTwice)
 {
   const auto a = table("a", {row(0, 0, 1, 1), row(1, 0, 1, 1)});
-  EXPECT_TRUE(holds(sentence<UsageError>({a, a}), "a.tsv and a.tsv both hold the time from 0 s"));
+  EXPECT_TRUE(
+      holds(sentence<UsageError>({a, a}), "a.tsv and a.tsv both contain the time from 0 s"));
   const auto rest = table("a", {row(2, 0, 1, 1)}), part = table("a", {row(1, 0, 1, 1)});
   EXPECT_EQ(merged({a, rest}).rows.size(), 3u);
   EXPECT_TRUE(holds(sentence<UsageError>({a, rest, part}), "the time from 0.1 s"));
-  const auto shifted = table("a", {{0.25, 0.35, 1, sums(1)}});  // half in the last window of `rest`
-  EXPECT_TRUE(holds(sentence<UsageError>({rest, shifted}), "both hold the time from 0.2"));
+  const auto shifted = table("a", {{0.25, 0.35, 1, sums(1)}});  // half in the last one of `rest`
+  EXPECT_TRUE(holds(sentence<UsageError>({rest, shifted}), "both contain the time from 0.2"));
   const auto with_b = merged({a, table("b", {row(0, 0, 1, 2)})});
   EXPECT_TRUE(holds(sentence<UsageError>({with_b, part}), "of the same run (xxh3 a)"));
 }
@@ -230,8 +231,8 @@ TEST(MergeTables, TheSameTimeOfOneRunDoesNotCountTwice)
 TEST(MergeTables, TheSameNumbersUnderAnotherDigestDoNotCountTwice)
 {
   EXPECT_EQ(sentence<UsageError>({table("a", {row(0, 0, 1, 1)}), table("b", {row(0, 0, 1, 1)})}),
-            "a.tsv and b.tsv both hold the time from 0 s of the same run (all numbers are the "
-            "same); counting it twice would make intervals too narrow");
+            "a.tsv and b.tsv both contain the time from 0 s of the same run (all numbers are the "
+            "same); give only one of them, because counting it twice makes intervals too narrow");
 }
 
 TEST(MergeTables, WindowsThatOverlapInPartAreMergedOnlyWithAllOthers)
@@ -239,7 +240,7 @@ TEST(MergeTables, WindowsThatOverlapInPartAreMergedOnlyWithAllOthers)
   const std::vector<Table> tables{table("a", {row(2, 0, 1, 1)}),
                                   table("b", {{0.25, 0.35, 1, sums(2), 0, 0.02}})};
   EXPECT_TRUE(
-      holds(sentence<UsageError>(tables), "a.tsv and b.tsv hold windows that overlap in part"));
+      holds(sentence<UsageError>(tables), "a.tsv and b.tsv have windows that partly overlap"));
   EXPECT_EQ(merged(tables, true).rows.size(), 1u);
 }
 
@@ -247,7 +248,7 @@ TEST(MergeTables, DamagedTablesAreNamedWithTheRow)
 {
   const auto a = table("a", {row(0, 0, 1, 1)});
   EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 1, 1), row(0, 1, 2, 1)})}),
-                    "b.tsv: row 2: 2 frames where others of its window have 1"));
+                    "b.tsv: row 2: 2 frames, but other rows of its window have 1"));
   EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 0, 1)})}), "b.tsv: row 1"));
   EXPECT_TRUE(holds(sentence<FormatError>({a, table("b", {row(0, 0, 1, 1), row(0, 0, 1, 1)})}),
                     "b.tsv: row 2 repeats the window and layer of row 1"));
@@ -256,11 +257,11 @@ TEST(MergeTables, DamagedTablesAreNamedWithTheRow)
   EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "b.tsv: row 1, column"));
   b = table("b", {row(0, 0, 1, 1)});
   std::swap(b.columns[4], b.columns[5]);
-  EXPECT_TRUE(holds(sentence<FormatError>({b}), "column 5 is 'V[m^2]' where"));
+  EXPECT_TRUE(holds(sentence<FormatError>({b}), "column 5 is 'V[m^2]', but"));
   EXPECT_TRUE(holds(sentence<UsageError>({}), "no tables given"));
   b = table("b", {row(0, 0, 1, 1)});
   b.header[3].second = "1e-300";
-  EXPECT_TRUE(holds(sentence<FormatError>({b}), "b.tsv: row 1: does not go with the step"));
+  EXPECT_TRUE(holds(sentence<FormatError>({b}), "b.tsv: row 1: does not fit the step"));
   b.header[3].second = "0";
   EXPECT_TRUE(holds(sentence<FormatError>({b}), "b.tsv: '# step: 0' should be positive"));
 }

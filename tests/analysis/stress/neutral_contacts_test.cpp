@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The neutral contact model as lists of contacts: what large and small grains carry where nothing
-// but their size tells them apart.
+// The neutral contact model as lists of contacts: stresses that large and small grains carry if
+// nothing but their size distinguishes them.
 #include "analysis/frames/composition.hpp"
 #include "analysis/stress/partial_contact_stress.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -18,8 +18,8 @@ namespace {
 const Layers thick_layers(100, 10);
 constexpr double small_radius = 0.5;
 
-/// Pairs whose kinds are those of random pairing where of a + b contact ends a belong to large
-/// grains, all with the same forces, in every direction, about the middle of a thick layer.
+/// Adds pairs as in random pairing, where of a + b contact ends a belong to large grains. All have
+/// the same forces, in every direction, about the middle of a thick layer.
 void add_layer(Packing& packing, int layer, int a, int b, int r)
 {
   constexpr int directions = 7;
@@ -36,8 +36,8 @@ void add_layer(Packing& packing, int layer, int a, int b, int r)
                                    Vec2(5, y) + (radius[first] + radius[second]) * normal);
       packing.contact(i, j, (1 + 0.3 * std::sin(angle)) * normal + 0.2 * tangent);
     }
-  // A large grain has r times the ends of a small one; here each has one, so the small ones of
-  // (r - 1)/r have none.
+  // A large grain has r times the contact ends of a small one. Here each grain with ends has one,
+  // so (r - 1)/r of the small grains have none.
   for (int k = 0; k < (r - 1) * 2 * b * (a + b) * directions; ++k)
     packing.grain(Species::small, small_radius, {5, y});
 }

@@ -51,7 +51,7 @@ TEST(PartialContactStress, AContactCountsWholeWhereItTouches)
     EXPECT_TRUE(same(stress.mean(n).sums.of(PairSum::whole, 0), mixed * 0));
 }
 
-// The branch runs from 1.25 to 2.75: half in layer 1, half in layer 2. The large grain's part is
+// The branch runs from 1.25 to 2.75: half is in layer 1, half in layer 2. The large grain's part is
 // 1.75 to 2.75: 0.25 of 1.5 in layer 1 and 0.75 of 1.5 in layer 2.
 TEST(PartialContactStress, AlongTheBranchEveryLayerGetsItsLength)
 {
@@ -62,7 +62,7 @@ TEST(PartialContactStress, AlongTheBranchEveryLayerGetsItsLength)
   EXPECT_TRUE(same(stress.mean(2).sums.of(PairSum::by_size, 0), mixed / 2));
   EXPECT_TRUE(same(stress.mean(1).sums.of(PairSum::up_to_contact, 0), mixed / 6));
   EXPECT_TRUE(same(stress.mean(2).sums.of(PairSum::up_to_contact, 0), mixed / 2));
-  // A weight, not a cut: power:0 is one half of what lies in the layer.
+  // power:0 is a weight, not a cut: it takes one half of the stress in the layer.
   EXPECT_TRUE(same(stress.mean(1).sums.of(PairSum::by_power, 0), mixed / 4));
   EXPECT_TRUE(same(stress.mean(2).sums.of(PairSum::by_power, 0), mixed / 4));
 }
@@ -80,8 +80,8 @@ TEST(PartialContactStress, EachGrainsPartCountsAtItsOwnCentre)
   EXPECT_TRUE(same(stress.mean(2).sums.of(PairSum::at_smaller, 0), mixed * 0));
 }
 
-// compute stress/atom of LAMMPS: every grain has half of force (x) branch of each of its contacts,
-// whoever the other is; summed by species and layer.
+// `compute stress/atom` of LAMMPS: every grain gets half of force (x) branch of each of its
+// contacts, whatever the other grain is; summed by species and layer.
 TEST(PartialContactStress, HalvesAtTheGrainsCentresAreTheStressPerGrainOfLammps)
 {
   const Packing packing = heap();
@@ -111,8 +111,8 @@ TEST(PartialContactStress, HalvesAtTheGrainsCentresAreTheStressPerGrainOfLammps)
   }
 }
 
-// Radii 1 and 0.5 overlapping by 0.3: the contact point halves the overlap, 0.85 from the large
-// centre and 0.35 from the small one, while by size it is still two to one.
+// Radii 1 and 0.5 overlap by 0.3: the contact point halves the overlap, 0.85 from the large centre
+// and 0.35 from the small one, while under size the shares are still two to one.
 TEST(PartialContactStress, OverlapMovesTheContactPointButNotTheShareBySize)
 {
   Packing packing = large_on_small();
@@ -268,8 +268,8 @@ TEST(PartialContactStress, TheTotalIsTheSumOverContacts)
   EXPECT_TRUE(same(sums, direct, 1e-12));
 }
 
-// Momentum balance: what flows down through a level is the net contact force on all that is above
-// it, and the sum over a layer is h times its mean over the levels in the layer.
+// Momentum balance: the momentum flux down through a level is the net contact force on everything
+// above, and the sum over a layer is h times its mean over the levels in the layer.
 TEST(PartialContactStress, AlongTheBranchTheSumIsTheForceThroughTheLayer)
 {
   const Packing packing = heap();
@@ -294,7 +294,7 @@ TEST(PartialContactStress, MovingTheBedAlongThePeriodChangesNothing)
   const Packing packing = heap();
   Packing moved = packing;
   for (auto& position : moved.frame.position)
-    position.x() = std::fmod(position.x() + 3.7, 10.0);  // branches stay, as in a periodic run
+    position.x() = std::fmod(position.x() + 3.7, 10.0);  // branches are as before
   for (const auto assignment : all_assignments) {
     const auto here = stress_of(packing, assignment), there = stress_of(moved, assignment);
     for (std::size_t n = 0; n < here.layers(); ++n) EXPECT_EQ(here.row(n), there.row(n));
@@ -315,8 +315,7 @@ TEST(PartialContactStress, MovingTheBedByAWholeLayerMovesTheRows)
   }
 }
 
-/// The same grains and contacts under other numbers, and every other contact seen from its other
-/// end.
+/// The same grains and contacts with other numbers; every second contact has its grains exchanged.
 Packing relabelled(const Packing& packing)
 {
   const auto count = static_cast<std::int32_t>(packing.grains.size());
@@ -362,7 +361,7 @@ TEST(PartialContactStress, NamesAndOrderOfGrainsChangeNothing)
   }
 }
 
-// A flat heap reaches fewer layers; what a kernel has above them goes to its own highest layer.
+// A flat heap reaches fewer layers; the part of a kernel above them belongs to its own highest layer.
 TEST(PartialContactStress, FramesCanBeAddedApartAndInAnyOrder)
 {
   const Packing packing = heap();
@@ -406,7 +405,7 @@ TEST(PartialContactStress, ColumnsAndNumbersAgreeInCount)
   EXPECT_EQ(stress_of(packing, Assignment::grain).columns(two_sizes(1, 2)).back(), "MS_yy[N m]");
 }
 
-// Sums and rules against the same stress added up contact by contact.
+// Stress from sums and rules, compared with stress added up contact by contact.
 TEST(PartialContactStress, RecombinedSumsAreTheDirectPartition)
 {
   const Packing packing = heap();

@@ -17,8 +17,8 @@ using synthetic::any_tensor;
 using synthetic::neutral_sums;
 using synthetic::stress_table;
 
-/// A large grain of radius 2 presses on a small one of radius 1; they overlap by 0.3, so that the
-/// contact point lies 2 - 0.15 from the centre of the large grain on a branch of 2.7.
+/// A large grain of radius 2 presses on a small one of radius 1. They overlap by 0.3, so the
+/// contact point is 2 - 0.15 from the large grain's centre, on a branch of 2.7.
 ContactSums<2> one_mixed_contact()
 {
   const Vec2 force{-0.5, 3}, branch{0, 2.7};
@@ -170,7 +170,7 @@ TEST(Partition, InTheVolumeOfTheGrainsStressIsLargerByOneOverTheSolidFraction)
   EXPECT_NEAR(solid.large()(1, 1) / bulk.large()(1, 1), 1 / 0.8, 1e-14);
 }
 
-// Staron & Phillips (2015) with contacts that ignore type: psi_L = phi_L, so nothing segregates.
+// Staron & Phillips (2015): if contacts ignore type, psi_L = phi_L, so nothing segregates.
 TEST(Partition, NeutralContactsSharedBySizeLoadEachSpeciesByItsConcentration)
 {
   for (const double r : {1.0, 2.0, 3.5})
@@ -195,7 +195,7 @@ TEST(Partition, NeutralContactsSharedOtherwiseShowTheBOfTheClosedForm)
     }
 }
 
-// (P - 2/3) 3/(1 + phi_S) for size ratio 2, by hand.
+// By hand for size ratio 2: (P - 2/3) 3/(1 + phi_S).
 TEST(Partition, TheNeutralBOfFourFifthsIsThreeTenthsHalfWay)
 {
   EXPECT_NEAR(neutral_b(parse_rule("uniform:0.8"), 2, 0.5), (0.8 - 2. / 3) * 2, 1e-15);
@@ -228,7 +228,7 @@ TEST(PartitionRule, StockStandsForThoseOfPublishedCodes)
   EXPECT_EQ(rules[4].used_by(), "");
 }
 
-// Whatever is listed can be typed, and what a rule gives at nominal sizes is what its contacts give.
+// Every listed word can be typed, and the share of a rule at nominal sizes is the share of its contacts.
 TEST(PartitionRule, TheListOfRulesIsWhatParsingKnows)
 {
   EXPECT_EQ(list_of_rules("or"), "size, contact-point, half, drop, uniform:P or power:Q");

@@ -23,7 +23,7 @@ KineticStress<2> kinetic(const std::vector<Packing>& frames, MeanFlow flow)
   return kinetic_of(frames, flow, 0.5);
 }
 
-/// Grains of all masses in one layer that move and turn at random.
+/// Grains of different masses in one layer that move and rotate at random.
 template <int D>
 PackingOf<D> cloud(int grains)
 {
@@ -47,7 +47,7 @@ PackingOf<D> cloud(int grains)
   return packing;
 }
 
-/// Of grain i by the definition, pair by pair.
+/// Fluctuation of grain i by its definition, pair by pair.
 template <int D>
 typename UnbiasedFluctuations<D>::Product pair_by_pair(const PackingOf<D>& packing, std::size_t i)
 {
@@ -94,8 +94,8 @@ TEST(UnbiasedFluctuations, AGrainIsComparedWithEveryPairOfOthers)
   }
 }
 
-/// What a quadratic form v A v of independent normal numbers v of mean 0 and variances s has: the
-/// expectation tr(A S) and the variance 2 tr(A S A S), S = diag(s), A symmetric.
+/// Mean and variance of a quadratic form v A v of independent normal numbers v of mean 0 and
+/// variances s: tr(A S) and 2 tr(A S A S), with S = diag(s) and A symmetric.
 struct NormalForm {
   Eigen::MatrixXd a;
   Eigen::VectorXd s;
@@ -108,8 +108,8 @@ struct NormalForm {
   }
 };
 
-/// Two heavy grains among nine light ones. The variances of one component of velocity are neither
-/// equal nor as 1/mass.
+/// Two heavy grains among nine light ones. The variances of a velocity component are neither equal
+/// nor proportional to 1/mass.
 struct Mixture {
   static constexpr int heavy = 2, all = 11;
   static constexpr double heavy_mass = 8, heavy_variance = 0.3, light_variance = 1;
@@ -128,8 +128,8 @@ struct Mixture {
     return packing;
   }
 
-  /// sum m dv^2 of the grains from `begin` to `end` as a form in the velocities, from the
-  /// differences v_i - v_j, weight m_j, of all pairs of others (`unbiased`) or v_i - V.
+  /// sum m dv^2 of the grains from `begin` to `end` as a quadratic form in the velocities: from the
+  /// differences v_i - v_j of all pairs of others with weights m_j (`unbiased`), or from v_i - V.
   static NormalForm form(int begin, int end, bool unbiased)
   {
     NormalForm form{Eigen::MatrixXd::Zero(all, all), Eigen::VectorXd(all)};
@@ -154,8 +154,8 @@ struct Mixture {
   }
 };
 
-// The tolerance is four standard errors, sqrt(var/N) of N = 20000 frames; `instant` lies by what
-// the closed form says beside the truth: m s (1 - 2 m/M) + m sum m_j^2 s_j/M^2 of one grain.
+// The tolerance is four standard errors, sqrt(var/N) for N = 20000 frames. `instant` differs from
+// the truth by the closed form: m s (1 - 2 m/M) + m sum m_j^2 s_j/M^2 for one grain.
 TEST(UnbiasedFluctuations, HeavyGrainsAmongLightOnesHaveTheVarianceTheyWereDrawnWith)
 {
   constexpr int frames = 20000;
@@ -182,15 +182,16 @@ TEST(UnbiasedFluctuations, HeavyGrainsAmongLightOnesHaveTheVarianceTheyWereDrawn
                  biased_error = std::sqrt(biased_form.variance() / frames);
     EXPECT_NEAR(unbiased.mean(0, species).about_mean.kinetic(0, 0), truth, 4 * error);
     EXPECT_NEAR(instant.mean(0, species).about_mean.kinetic(0, 0), biased, 4 * biased_error);
-    // Of a light grain, what its own mass takes away and what the heavy ones add nearly cancel.
+    // For a light grain, the part that its own mass removes and the part that heavy grains add
+    // nearly cancel.
     if (heavy) {
       EXPECT_GT(truth - biased, 20 * biased_error);
     }
   }
 }
 
-// sum m (v - V)^2/(m s) of n equal grains is chi squared of n - 1 degrees of freedom: the mean is
-// n - 1 and the standard error of N frames sqrt(2 (n - 1)/N).
+// sum m (v - V)^2/(m s) of n equal grains is chi squared with n - 1 degrees of freedom: the mean is
+// n - 1, and the standard error of N frames is sqrt(2 (n - 1)/N).
 TEST(UnbiasedFluctuations, OfEqualGrainsTheMeanOfTheFrameTakesOneInNAway)
 {
   constexpr int n = 5, frames = 4000;
@@ -212,17 +213,17 @@ TEST(UnbiasedFluctuations, OfEqualGrainsTheMeanOfTheFrameTakesOneInNAway)
   EXPECT_GT(truth - (1 - 1.0 / n) * truth, 20 * error);
 }
 
-// What the others do together is not known from one other alone, and not at all from none.
+// The common motion of the other grains cannot be estimated from one other grain, or from none.
 TEST(UnbiasedFluctuations, GrainsWithFewerThanTwoOthersDoNotCountButAreCounted)
 {
   Packing packing;
-  packing.grain(Species::large, 0.1, {1, 2.5}, {9, 0});  // alone in its layer
-  packing.grain(Species::small, 0.1, {1, 1.5}, {5, 0});  // two in theirs
+  packing.grain(Species::large, 0.1, {1, 2.5}, {9, 0});  // the only grain of its layer
+  packing.grain(Species::small, 0.1, {1, 1.5}, {5, 0});  // two grains in this layer
   packing.grain(Species::large, 0.1, {2, 1.5}, {7, 0});
-  packing.grain(Species::small, 0.1, {1, 0.5}, {1, 0});  // three in theirs
+  packing.grain(Species::small, 0.1, {1, 0.5}, {1, 0});  // three grains in this layer
   packing.grain(Species::small, 0.1, {2, 0.5}, {2, 0});
   packing.grain(Species::small, 0.1, {3, 0.5}, {4, 0});
-  packing.grain(Species::boundary, 0.1, {1, 0});  // is nobody's other
+  packing.grain(Species::boundary, 0.1, {1, 0});  // boundary grains do not count
   const auto stress = kinetic({packing}, MeanFlow::instant_unbiased);
   const auto alone = stress.mean(2, Species::large), one_of_two = stress.mean(1, Species::small),
              three = stress.mean(0, Species::small);

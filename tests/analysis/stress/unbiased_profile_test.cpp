@@ -18,7 +18,7 @@ using std::numbers::pi;
 const Layers unit_layers(1, 10);
 constexpr double bin = 0.5;
 
-/// Grains of two masses at all heights below 3, in a shear flow, with independent fluctuations.
+/// Grains of two masses at random heights below 3, in a shear flow, with independent fluctuations.
 struct Shear {
   static constexpr double shear = 3, light_variance = 1, heavy_variance = 0.4;
   static constexpr double light_radius = 0.1, heavy_radius = 0.2;
@@ -66,8 +66,8 @@ TEST(UnbiasedProfile, TheMeanOfOthersIsTheProfileThatWasMadeWithoutTheGrain)
   }
 }
 
-// A window of two frames has about 13 grains in a bin. The mean of N windows is known to four of its
-// standard errors; that about the whole profile falls short by more.
+// A window of two frames has about 13 grains in a bin. The mean of N windows is accurate to four of
+// its standard errors; the fluctuation about the whole profile is too small by more than that.
 TEST(UnbiasedProfile, GrainsOfTwoMassesHaveTheVarianceTheyWereDrawnWithInWindowsOfTwoFrames)
 {
   constexpr int windows = 4000, grains = 40;
@@ -111,8 +111,8 @@ TEST(UnbiasedProfile, GrainsOfTwoMassesHaveTheVarianceTheyWereDrawnWithInWindows
   }
 }
 
-// n equal grains at one height in one frame: their profile is their mean V, and sum (v - V)^2 falls
-// short by the factor 1 - 1/n.
+// n equal grains at one height in one frame: their profile is their mean V, and sum (v - V)^2 is
+// too small by the factor 1 - 1/n.
 TEST(UnbiasedProfile, OfEqualGrainsInOneBinTheFactorIsThatOfTheSampleVariance)
 {
   Packing packing;
@@ -139,8 +139,8 @@ TEST(UnbiasedProfile, AGrainWithoutTwoOthersInItsBinIsComparedWithTheNearestBins
   packing.grain(Species::large, 0.1, {1, 1.25}, {9, 0});
   const auto large = kinetic({packing}, MeanFlow::profile_unbiased).mean(1, Species::large);
   EXPECT_EQ(large.left_out, 0);
-  // About 7/3 + 4. The variance of the mean of 1, 2 and 4 is their sum of squares about it, 14/3, over 6;
-  // the mean of two such means has half of that.
+  // About 7/3 + 4. The variance of the mean of 1, 2 and 4 is 14/3, the sum of squares about the mean,
+  // over 6; the mean of two such means has half of that.
   const double excess = 9 - (7.0 / 3 + 4);
   EXPECT_NEAR(large.about_mean.kinetic(0, 0), pi * 0.01 * (excess * excess - 7.0 / 18), 1e-14);
 }

@@ -32,7 +32,7 @@ def processor():
 
 
 def of_simulator(trajectory, begin):
-    """Means over all steps since `begin`, lengths in d_S."""
+    """Means of observables over all steps since `begin`, lengths in d_S."""
     with h5py.File(trajectory, "r") as file:
         d = float(numpy.ravel(file["parameters/small_diameter"][()])[0])
         mobile = file["particles/grains/species"][:] != 2
@@ -71,7 +71,7 @@ def of_fit(folder, table, **options):
 
 
 def of_micro(table):
-    """Whole-bed means: coordination, force per contact end, their product, mixed share."""
+    """Means over the whole bed: coordination, force per contact end, their product, mixed share."""
     bed = [row for row in table if math.isnan(row["y0"])]
     mean = lambda key: sum(r[key] * r["frames"] for r in bed) / sum(r["frames"] for r in bed)
     small, large = mean("z_S"), mean("z_L")

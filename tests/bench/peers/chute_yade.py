@@ -28,7 +28,7 @@ def effective_mass(a, b):
 
 
 def match(value):
-    """A value for every pair of types."""
+    """Values for every pair of types."""
     return MatchMaker(matches=[(material[a], material[b], value(a, b)) for a in mass for b in mass])
 
 
@@ -42,7 +42,7 @@ for fixed, kind, r, x, y, u, v, spin in grains:
     i = O.bodies.append(sphere((x, y + 8, 5), r, fixed=bool(fixed),
                                material=O.materials[material[int(kind)]]))
     state = O.bodies[i].state
-    state.mass = 1e9 if fixed else math.pi * r * r  # the contact law takes the reduced mass
+    state.mass = 1e9 if fixed else math.pi * r * r  # the contact law uses the reduced mass
     state.inertia = (state.mass * r * r / 2,) * 3
     state.blockedDOFs = "xyzXYZ" if fixed else "zXY"
     if not fixed:

@@ -24,7 +24,7 @@ CLEARANCE = 0.02              # d_S, before the collision
 
 
 def pairs_state():
-    """Pairs of discs: the first above the second, falling on it and sliding along x."""
+    """State with pairs of discs: the first above the second, falling on it and sliding along x."""
     type_, radius, position, velocity = [], [], [], []
     for k, (upper, lower) in enumerate(PAIRS.values()):
         r = [0.5 if kind == SMALL else 1.0 for kind in (upper, lower)]
@@ -38,8 +38,8 @@ def pairs_state():
 
 
 def collide(program, data, folder, core):
-    """(e, inertia factor) of every pair."""
-    # Long enough for the softest to separate, short enough that none flies far.
+    """Restitution e and inertia factor of every pair."""
+    # Long enough for the softest disc to separate, short enough that none flies far.
     plan = Plan(warm=1, timed=int(0.08 / program.step), every=1, frames=1, gravity=0.0)
     end = program.run(folder, data, plan, core).end
     found = []

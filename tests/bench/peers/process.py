@@ -9,9 +9,9 @@ import time
 
 @dataclasses.dataclass
 class Cost:
-    wall: float       # s, of the whole process
-    cpu_share: float  # of the wall time; well below 1 if others used the core
-    memory: float     # MB, peak resident
+    wall: float       # wall time of the whole process, s
+    cpu_share: float  # processor time over wall time; well below 1 if others used the core
+    memory: float     # peak resident memory, MB
 
 
 @dataclasses.dataclass
@@ -19,15 +19,15 @@ class Sample:
     """One timed run of one program, in the quantities of the table; lengths in d_S, times in s."""
     command: str
     cost: Cost
-    wall: float           # of the timed part
-    steps: int            # in the timed part
+    wall: float           # wall time of the timed part
+    steps: int            # number of steps in the timed part
     step: float
-    mean_overlap: float   # of overlapping pairs
-    mean_gap: float       # |gap| of contacts under force
+    mean_overlap: float   # mean overlap of overlapping pairs
+    mean_gap: float       # mean |gap| of contacts with a force
     largest_overlap: float
-    contacts: float       # under force
-    velocity: float       # mean of the mobile grains at the end, sqrt(g d_S)
-    flow: float           # from the state to the end
+    contacts: float       # number of contacts with a force
+    velocity: float       # mean velocity of the mobile grains at the end, sqrt(g d_S)
+    flow: float           # time of the flow from the state to the end
 
     @property
     def cpu(self):

@@ -1,4 +1,4 @@
-"""grseg-sim: makes the common state, a checkpoint, and continues from it."""
+"""Runs of grseg-sim: makes the common state, a checkpoint, and continues from it."""
 import math
 import os
 import re
@@ -11,14 +11,14 @@ import numpy as np
 from . import process
 from .state import read_run, WRITERS
 
-STATE_STEP = 1e-4  # s; the state's overlaps are then about those of soft discs with kn 1e5
+STATE_STEP = 1e-4  # s; with it, overlaps in the state are about those of soft discs with kn 1e5
 FRAME_INTERVAL = 0.05  # s, as in the scene; grseg-sim fits its step into it, so that another value gives another run
 
 
 def make_state(program, scene, flow, folder, core):
-    """The state after `flow` seconds, in all formats that the programs read; existing files are kept.
+    """Writes the state after `flow` seconds in all formats that the programs read; existing files are kept.
 
-    The peers' state is that after the first step beyond the checkpoint, as frames are half steps.
+    The state for other programs is the one after the first step beyond the checkpoint, because frames are at mid-step.
     """
     run = os.path.join(folder, "state.h5")
     checkpoint = checkpoint_of(folder)
@@ -48,8 +48,8 @@ def checkpoint_of(folder):
 
 
 class RigidDiscs:
-    """grseg-sim with given options."""
-    trial = 0.5  # s of flow, to calibrate how many fill the requested time
+    """Runs grseg-sim with given options."""
+    trial = 0.5  # flow of a trial, s, that shows how much fills the requested time
 
     def __init__(self, program, options):
         self.program, self.options = program, options
@@ -64,12 +64,12 @@ class RigidDiscs:
         return process.run(self.command(data, data["flow"] + flow), folder, core)
 
     def command(self, data, until):
-        """`until` counts from the tilt, s."""
+        """Command line; `until` is the time since the tilt, s."""
         return [self.program, "--restart", checkpoint_of(data["folder"]), *shlex.split(self.options),
                 "--duration", f"{until:.10g}", "-o", "run.h5", "--overwrite"]
 
     def sample(self, folder, data, flow, core):
-        """Times `flow` seconds of flow; overlaps are those of the second half."""
+        """Times `flow` seconds of flow; overlaps are means over the second half."""
         flow = math.ceil(flow / FRAME_INTERVAL) * FRAME_INTERVAL
         cost = self.run(folder, data, flow, core)
         path = os.path.join(folder, "run.h5")
@@ -86,7 +86,7 @@ class RigidDiscs:
 
 
 def mean_velocities(path, units):
-    """Time in s and mean velocity of the mobile grains in sqrt(g d_S), frame by frame."""
+    """Time in s and mean velocity of the mobile grains in sqrt(g d_S), by frame."""
     with h5py.File(path, "r") as run:
         grains = run["particles/grains"]
         mobile = grains["fixed"][:] == 0

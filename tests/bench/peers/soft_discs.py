@@ -1,4 +1,4 @@
-"""The peers: LAMMPS, LIGGGHTS and YADE, soft discs with linear springs, from one state.
+"""Runs of other programs (peers), LAMMPS, LIGGGHTS and YADE: soft discs with linear springs, from one state.
 
 Units d_S = g = rho = 1 throughout; kn is the normal stiffness, two small discs of mass pi/4 collide
 for pi/(w sqrt(1 - z^2)), w^2 = kn/m, m = pi/8, and the step is 1/20 of that.
@@ -26,7 +26,7 @@ def reduced_mass(a, b):
 
 
 def damping(kn, a, b):
-    """gamma_n per unit of reduced mass that gives e between nominal grains of types a and b."""
+    """Damping gamma_n per unit of reduced mass that gives restitution e between nominal grains of types a and b."""
     return 2 * DAMPING_RATIO * math.sqrt(kn / reduced_mass(a, b))
 
 
@@ -36,13 +36,13 @@ def time_step(kn):
 
 
 def restitution_without_pull(zeta):
-    """e of a spring and dashpot that separate when their force vanishes (Schwager & Poeschel 2007)."""
+    """Restitution e of a spring and dashpot that separate when their force vanishes (Schwager & Poeschel 2007)."""
     w = math.sqrt(1 - zeta**2)
     return math.exp(-zeta / w * (math.pi - math.atan2(2 * zeta * w, w**2 - zeta**2)))
 
 
 def restitution_with_pull():
-    """The nominal e at which a contact that cannot pull has the requested actual e."""
+    """Nominal e for which a contact that cannot pull has the requested actual e."""
     low, high = 0.0, 0.99
     while high - low > 1e-12:
         middle = (low + high) / 2
@@ -54,7 +54,7 @@ def restitution_with_pull():
 
 
 def tsuji_argument():
-    """Where LAMMPS's fit alpha(e) (Tsuji 1992, made for Hertz) equals the linear spring's 2 zeta."""
+    """Nominal e for which LAMMPS's fit alpha(e) (Tsuji 1992, made for Hertz) equals the linear spring's 2 zeta."""
     fit = np.array([4.8218, -18.022, 27.467, -22.348, 11.087, -4.2783, 1.2728])
     fit[-1] -= 2 * DAMPING_RATIO
     return min(r.real for r in np.roots(fit) if abs(r.imag) < 1e-9 and 0 < r.real < 1)
@@ -62,12 +62,12 @@ def tsuji_argument():
 
 @dataclasses.dataclass
 class Plan:
-    """The phases of a run, in steps."""
+    """Lengths of the phases of a run, in steps."""
     warm: int = 3000
     timed: int = 1000
-    every: int = 500    # between two lists of contacts, after the timed steps
+    every: int = 500    # steps between two lists of contacts, after the timed steps
     frames: int = 10
-    slice: int = 10**9  # between two mean velocities in the log
+    slice: int = 10**9  # steps between two mean velocities in the log
     gravity: float = 1.0
 
     @property
@@ -78,13 +78,13 @@ class Plan:
 @dataclasses.dataclass
 class Result:
     cost: process.Cost
-    wall: float           # s, of the timed steps
+    wall: float           # wall time of the timed steps, s
     end: np.ndarray       # rows id vx vy omega
 
 
 class SoftDiscs:
-    """One program with one stiffness."""
-    trial = 1000  # steps, to calibrate how many fill the requested time
+    """Runs one program with one stiffness."""
+    trial = 1000  # steps of a trial that shows how many steps fill the requested time
 
     def __init__(self, kn):
         self.kn = kn
@@ -128,7 +128,7 @@ class SoftDiscs:
                           for word in ("-var", name, str(value)))], None
 
     def timed_wall(self, folder):
-        """The second run of the input script is the timed one."""
+        """Wall time, s: the second run of the input script is the timed one."""
         return float(re.findall(r"Loop time of ([0-9.e+-]+)", read(folder, "log"))[1])
 
     def velocities(self, folder):
@@ -208,7 +208,7 @@ def read(folder, name):
 
 
 def read_rows(path, head, skip=0):
-    """The blocks of numbers under the lines that begin with `head`, without their first columns."""
+    """Blocks of numbers under the lines that begin with `head`, without their first columns."""
     blocks, rows = [], None
     with open(path) as text:
         for line in text:

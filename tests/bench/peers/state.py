@@ -27,7 +27,7 @@ TYPE_OF_SPECIES = np.array([SMALL, LARGE, BASE])
 
 @dataclasses.dataclass
 class State:
-    length: float              # period along x, d_S
+    length: float              # period of the cell along x, d_S
     type: np.ndarray           # BASE, LARGE, SMALL
     radius: np.ndarray         # d_S
     position: np.ndarray       # [N][2], d_S
@@ -45,7 +45,7 @@ class State:
 
 @dataclasses.dataclass
 class Units:
-    """SI value of one unit."""
+    """SI values of the units of length, time and mass."""
     length: float
     time: float
 
@@ -55,7 +55,7 @@ class Units:
 
 
 def read_run(path, at=math.inf):
-    """The state after the step of the last frame up to `at` s, its units and its time in s."""
+    """State after the step of the last frame up to `at` s, its units, and its time in s."""
     with h5py.File(path, "r") as run:
         grains, parameters = run["particles/grains"], run["parameters"]
         times = grains["position/time"][:len(run["grseg/contacts/offset"]) - 1]

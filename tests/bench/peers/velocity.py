@@ -15,7 +15,7 @@ INTERVAL = 0.5  # s
 
 
 def curve(program, data, seconds, folder, core):
-    """Rows (s since the state, mean velocity in sqrt(g d_S))."""
+    """Rows (time since the state in s, mean velocity in sqrt(g d_S))."""
     if isinstance(program, RigidDiscs):
         program.run(folder, data, seconds + FRAME_INTERVAL, core)
         time, velocity = mean_velocities(os.path.join(folder, "run.h5"), data["units"])
@@ -31,7 +31,7 @@ def curve(program, data, seconds, folder, core):
 
 
 def compare(programs, data, seconds, folder, core):
-    """Writes the curves and returns them by program's name."""
+    """Writes the curves, and returns them by name of program."""
     curves = {}
     for program in programs:
         name = program.name.replace(" ", "-")

@@ -11,7 +11,7 @@ namespace {
 
 class BedLine : public TestInFolder {
  protected:
-  /// The bed of three grains with these texts and a seed.
+  /// Bed of the run of three grains, with these texts and a seed.
   Bed of(const std::string& scene, const std::string& history, double seed = 1) const
   {
     auto run = three_grains::description();
@@ -28,7 +28,8 @@ class BedLine : public TestInFolder {
 const std::string scene = "slope = 23\nduration = 2\nseed = 1\nstore = float64\n";
 const std::string sim = "grseg-sim chute.ini -o run.h5";
 
-// Python: zlib.crc32(struct.pack("<3i", 7, 8, 9), zlib.crc32(struct.pack("<3d", 0.005, 0.0025, 0.005))).
+// Digest computed in Python: zlib.crc32(struct.pack("<3i", 7, 8, 9), zlib.crc32(struct.pack("<3d",
+// 0.005, 0.0025, 0.005))).
 TEST_F(BedLine, NamesTheGrainsByTheirRadiiAndIds)
 {
   three_grains::write(path("hand.h5"), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is said of work that goes on.
+// Messages about the progress of work.
 #include "formats/cli/progress.hpp"
 
 #include <gtest/gtest.h>
@@ -8,15 +8,15 @@
 namespace grseg {
 namespace {
 
-// 30 in 60 s are 0.5/s, and the 70 that are left take 140 s.
-TEST(Progress, SaysTheRateAndTheTimeThatIsLeft)
+// 30 items in 60 s are 0.5/s, and the remaining 70 take 140 s.
+TEST(Progress, StatesTheRateAndTheRemainingTime)
 {
   EXPECT_EQ(progress_text(30, {"frames", 100}, 60), "30 of 100 frames, 0.50/s, 2:20 left");
   EXPECT_EQ(progress_text(300, {"frames", 400}, 10), "300 of 400 frames, 30/s, 0:03 left");
   EXPECT_EQ(progress_text(1, {"frames", 7201}, 1), "1 of 7201 frames, 1.0/s, 120:00 left");
 }
 
-// From 10 s on, 5 s of flow in 20 s: a quarter per second, and 135 s take nine minutes.
+// From 10 s on, 5 s of flow take 20 s: the rate is a quarter, and 135 s take nine minutes.
 TEST(Progress, OfARunThatIsContinuedHasTheRateOfWhatIsNew)
 {
   const Work flow{"s of flow", 150, 10, 2};
@@ -24,19 +24,19 @@ TEST(Progress, OfARunThatIsContinuedHasTheRateOfWhatIsNew)
   EXPECT_EQ(progress_text(10, flow, 20), "10.00 of 150.00 s of flow");
 }
 
-TEST(Progress, OfAnUnknownTotalSaysNoTimeThatIsLeft)
+TEST(Progress, StatesNoRemainingTimeIfTheTotalIsUnknown)
 {
   EXPECT_EQ(progress_text(30, {"moments"}, 10), "30 moments, 3.0/s");
 }
 
-TEST(Progress, SaysNeitherBeforeItKnows)
+TEST(Progress, SaysNeitherRateNorTimeBeforeTheyAreKnown)
 {
   EXPECT_EQ(progress_text(0, {"windows", 100}, 5), "0 of 100 windows");
   EXPECT_EQ(progress_text(5, {"windows", 100}, 0), "5 of 100 windows");
 }
 
-// Here standard error is a pipe or a file, and the work is short.
-TEST(Progress, OfShortWorkIsSilent)
+// In this test, standard error is a pipe or a file, and the work is short.
+TEST(Progress, IsNotShownForShortWork)
 {
   testing::internal::CaptureStderr();
   {
@@ -47,8 +47,8 @@ TEST(Progress, OfShortWorkIsSilent)
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// As where the terminal of a run has been closed.
-TEST(Tell, AStandardErrorThatTakesNothingIsNoReasonToStop)
+// As if the terminal of a run has been closed.
+TEST(Tell, AClosedStandardErrorIsNoReasonToStop)
 {
   const int kept = dup(STDERR_FILENO);
   close(STDERR_FILENO);
@@ -57,8 +57,8 @@ TEST(Tell, AStandardErrorThatTakesNothingIsNoReasonToStop)
   close(kept);
 }
 
-// Here standard error is a pipe or a file.
-TEST(NextStep, IsNotSaidWhereNobodyReads)
+// In this test, standard error is a pipe or a file.
+TEST(NextStep, IsNotPrintedIfStandardErrorIsNoTerminal)
 {
   testing::internal::CaptureStderr();
   say_next("grseg-fit stress.tsv", false);

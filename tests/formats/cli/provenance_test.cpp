@@ -79,7 +79,7 @@ TEST_F(Provenance, SettingsAreWhatIsLeftWhenSourcesAreTakenAway)
   EXPECT_EQ(settings_of(table), (Header{{"preset", "none"}, {"layer", "1"}, {"base", "half"}}));
 }
 
-// 2.2 - 2 is 0.20000000000000018, and 1.4 times 5 mm are 0.0069999999999999993 m.
+// In floating point, 2.2 - 2 is 0.20000000000000018, and 1.4 times 5 mm are 0.0069999999999999993 m.
 TEST(Setting, IsTheSameUpToRoundOff)
 {
   EXPECT_TRUE(same_setting("0.20000000000000001", "0.20000000000000018"));

@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-/// Every byte alone, first, last and in the middle, and what shells have tripped over.
+/// Every byte alone, first, last and in the middle, and words that shells have misread before.
 std::vector<std::string> all_words()
 {
   std::vector<std::string> words{"",
@@ -43,7 +43,7 @@ std::vector<std::string> all_words()
   return words;
 }
 
-/// What a shell makes of words as they are written.
+/// Words as a shell reads them from a command line.
 std::vector<std::string> words_of_shell(const std::string& shell,
                                         const std::vector<std::string>& words)
 {

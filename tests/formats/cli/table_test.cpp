@@ -67,7 +67,7 @@ TEST(Table, HeaderNumbersAreNumbers)
   EXPECT_THROW(sample().header_text("slope"), FormatError);
 }
 
-/// As this grseg writes it.
+/// Sample table as this version of grseg writes it.
 Table own_sample()
 {
   auto table = sample();
@@ -86,7 +86,7 @@ TEST(Table, EndsWithTheNumberOfItsRowsAndAChecksumOfAllBytesBefore)
   table.header = {{"key", "value"}};
   table.columns = {"a", "b[m]"};
   table.rows = {{1, 2}};
-  // Of the lines before it `xxhsum -H3` prints the same digits.
+  // `xxhsum -H3` prints the same digits for the lines before the last one.
   EXPECT_EQ(table.to_text(), "# key: value\na\tb[m]\n1\t2\n# end: 1 rows, xxh3 a0f2a9fc4c5d84f7\n");
   EXPECT_EQ(complaint(table.to_text()), "no complaint");
 }

@@ -32,8 +32,9 @@ TEST(Choice, AnUnknownWordIsAnsweredWithAllThatAreKnown)
   }
 }
 
-// cohesion becomes rotation by four letters of its eight, and --stress --stride by three of its six.
-TEST(NearestWord, IsOneThatDiffersInAThirdOfItsLettersAtMost)
+// cohesion becomes rotation by replacing four of its eight letters, and --stress becomes --stride by
+// replacing three of six.
+TEST(NearestWord, DiffersInAThirdOfItsLettersAtMost)
 {
   const std::vector<std::string> known{"--rotation", "--friction", "--stride", "--layer"};
   EXPECT_EQ(nearest("--cohesion", known), "");

@@ -13,11 +13,11 @@
 
 namespace {
 
-int error_of_renameat2 = 0;  // what the file system answers, where not 0
+int error_of_renameat2 = 0;  // error number that the file system returns; 0: none
 
 }  // namespace
 
-/// In place of the C library's.
+/// Replaces the function of the C library.
 extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to,
                          unsigned flags) noexcept
 {
@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The parameter: what the file system says about renaming without replacing.
+/// Test parameter: error number of the file system for renaming without replacing.
 class Publishing : public TestInFolder, public testing::WithParamInterface<int> {
  protected:
   void SetUp() override

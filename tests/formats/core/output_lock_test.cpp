@@ -29,7 +29,7 @@ std::string host()
   return name.data();
 }
 
-/// The parameter: whether the file system knows locks.
+/// Test parameter: true if the file system supports locks.
 class OneWriter : public TestInFolder, public testing::WithParamInterface<bool> {
  protected:
   std::string run = path("run.h5");
@@ -39,7 +39,7 @@ class OneWriter : public TestInFolder, public testing::WithParamInterface<bool> 
   {
     return complaint_of<UsageError>([&] { const OutputLock another(run, lock); });
   }
-  /// A process that takes the lock and is killed.
+  /// Starts a process that takes the lock and is killed.
   void leave_a_dead_lock() const
   {
     const pid_t child = fork();
@@ -111,11 +111,11 @@ TEST_P(OneWriter, OfManyThatFindADeadLockOneGetsIt)
       child = fork();
       if (child != 0) continue;
       close(finish[1]);
-      alarm(60);  // two owners would wait for each other
+      alarm(60);  // otherwise two owners would wait for each other
       try {
         const OutputLock its(run, lock);
         char end = 0;
-        _exit(read(finish[0], &end, 1) == 0 ? 0 : 1);  // holds it until all have tried
+        _exit(read(finish[0], &end, 1) == 0 ? 0 : 1);  // keeps the lock until all have tried
       } catch (const UsageError&) {
         _exit(2);
       }

@@ -18,18 +18,18 @@ TEST(Text, ControlCharactersAreShownAndDoNothing)
   EXPECT_EQ(printable("a\nb\tc\r"), "a\\x0ab\\x09c\\x0d");
   EXPECT_EQ(printable("\x1b[2J\x7f"), "\\x1b[2J\\x7f");
   EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\x00b");
-  EXPECT_EQ(printable("\xc2\x9b\x31m"), "\\xc2\\x9b1m");  // U+009B begins an escape sequence, too
+  EXPECT_EQ(printable("\xc2\x9b\x31m"), "\\xc2\\x9b1m");  // U+009B also begins an escape sequence
 }
 
 TEST(Text, BytesThatAreNoCharacterAreShown)
 {
   EXPECT_EQ(printable("\xff"), "\\xff");
-  EXPECT_EQ(printable("\xc3"), "\\xc3");                    // cut
-  EXPECT_EQ(printable("\x80z"), "\\x80z");                  // a middle without a beginning
-  EXPECT_EQ(printable("\xc0\x8a"), "\\xc0\\x8a");           // a newline, longer than need be
-  EXPECT_EQ(printable("\xe0\x80\x8a"), "\\xe0\\x80\\x8a");  // likewise
-  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");  // half of a pair of UTF-16
-  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond the last
+  EXPECT_EQ(printable("\xc3"), "\\xc3");                    // an incomplete character
+  EXPECT_EQ(printable("\x80z"), "\\x80z");                  // no first byte
+  EXPECT_EQ(printable("\xc0\x8a"), "\\xc0\\x8a");           // a newline in an overlong encoding
+  EXPECT_EQ(printable("\xe0\x80\x8a"), "\\xe0\\x80\\x8a");  // another overlong encoding
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");  // half of a surrogate pair of UTF-16
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond the last character
 }
 
 TEST(Text, OfSeveralLinesKeepsThem)

@@ -18,9 +18,9 @@
 namespace grseg {
 namespace {
 
-/// Three grains, of which the large one (row 0, id 7) also touches straight wall 1 on its left, and
-/// the small one (row 1) a periodic image of the large one: the one at x = 0.001, the other at
-/// 0.345.
+/// Three grains. The large one (row 0, id 7) also touches straight wall 1 on its left, and the
+/// small one (row 1) touches a periodic image of the large one: the large grain is at x = 0.001,
+/// the small one at 0.345.
 class Export : public testing::Test {
  protected:
   fs::path folder = fs::temp_directory_path() / ("grseg_export_test_" + std::to_string(getpid()));
@@ -74,7 +74,7 @@ TEST_F(Export, AContactAcrossThePeriodicEdgeLeavesTheCellRatherThanCrossThePictu
   EXPECT_FLOAT_EQ(points[10], 0.0055F);
 }
 
-/// The three grains in two frames; the small one (row 1, id 8) is absent in the second.
+/// Writes the three grains in two frames; the small one (row 1, id 8) is absent in the second frame.
 void write_with_an_absent_grain(const std::string& path)
 {
   auto run = three_grains::description();
@@ -128,7 +128,8 @@ TEST_F(Export, AContactWithAWallEndsWhereTheGrainTouches)
   EXPECT_EQ(array_in<std::int32_t>(vtp, "pair_type"), (std::vector<std::int32_t>{4, 1}));  // Lb, LS
 }
 
-// On the normals (1, 0) and (-0.8, 0.6): (2, 1) is 2 along and 1 across, (-3, 4) is 4.8 and -1.4.
+// With the normals (1, 0) and (-0.8, 0.6): the force (2, 1) is 2 along and 1 across, (-3, 4) is 4.8
+// and -1.4.
 TEST_F(Export, TheNormalForcePushesApartAndTheTangentialOneIsAcross)
 {
   const TrajectoryReader run(run_path);
@@ -171,7 +172,7 @@ TEST_F(Export, NormalAndTangentialForceOfALammpsRowAddUp)
   std::map<std::string, double> value;
   header >> word >> word;  // ITEM: ENTRIES
   while (header >> word) row >> value[word];
-  // A wall's row: its grain twice.
+  // In the row of a wall, the grain's id appears twice.
   EXPECT_EQ(value["batom1"], 7);
   EXPECT_EQ(value["batom2"], 7);
   EXPECT_EQ(value["wall"], 1);
@@ -196,7 +197,7 @@ TEST_F(Export, TheFileOfContactsKeepsTheEndingOfTheDump)
   EXPECT_EQ(content(folder / "a.dump.gz").substr(0, 2), "\x1f\x8b");
 }
 
-// The lowest grain ends at y = -0.01, the box is 0.5 high, and along z there is room for a sphere.
+// The lowest grain ends at y = -0.01, the box is 0.5 high, and along z it has space for a sphere.
 TEST_F(Export, TheCellHoldsEveryGrainAndKeepsItsPeriod)
 {
   const TrajectoryReader run(run_path);
@@ -230,7 +231,7 @@ TEST_F(Export, AnUnfinishedExportLeavesNothingBehind)
     h5md->add(frame);
     EXPECT_EQ(files(), 1U + 5U);
   }
-  EXPECT_EQ(files(), 1U);  // the run
+  EXPECT_EQ(files(), 1U);  // only the run
 }
 
 TEST_F(Export, OverwritingReplacesAnExportAndNoOtherFolder)

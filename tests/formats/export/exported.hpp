@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What exports hold.
+/// Functions that read exported files.
 namespace grseg {
 
 namespace fs = std::filesystem;
@@ -29,7 +29,7 @@ inline std::vector<std::string> lines_of(const std::string& text)
   return lines;
 }
 
-/// The array `name` of a .vtp, found by its offset behind the underscore.
+/// The array `name` of a .vtp file, found by its offset after the underscore.
 template <class Number>
 std::vector<Number> array_in(const std::string& vtp, const std::string& name)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exports of a run of spheres of three species (tests/spheres.hpp).
+// Exports of the run of spheres of three species in tests/spheres.hpp.
 #include "tests/spheres.hpp"
 
 #include "formats/export/run_writers.hpp"
@@ -38,7 +38,7 @@ class ExportOfSpheres : public testing::Test {
     }
     writer.publish();
   }
-  /// The numbers of a line of a dump by the names of its columns.
+  /// Numbers in a line of a dump, by column name.
   static std::map<std::string, double> row(const std::string& header, const std::string& line)
   {
     std::istringstream names(header), numbers(line);
@@ -50,7 +50,7 @@ class ExportOfSpheres : public testing::Test {
   }
 };
 
-// The lowest grain ends at y = -0.007; x and z are those of the run.
+// The lowest grain ends at y = -0.007; x and z have the extent of the run's cell.
 TEST_F(ExportOfSpheres, HasACellThatIsPeriodicAlongXAndZ)
 {
   const TrajectoryReader run(at("run.h5"));
@@ -76,7 +76,7 @@ TEST_F(ExportOfSpheres, HasACellWithWallsAcrossWhereTheRunHas)
   EXPECT_EQ(lines_of(content(folder / "run.dump"))[8], "ITEM: BOX BOUNDS pp ff ff");
 }
 
-// id, type, position, velocity, radius, mass, angular velocity, force; types 3, 2, 1 and 4.
+// Columns id, type, position, velocity, radius, mass, angular velocity, force; types 3, 2, 1 and 4.
 TEST_F(ExportOfSpheres, HasEveryComponentInExtendedXyz)
 {
   const TrajectoryReader run(at("run.h5"));
@@ -144,7 +144,7 @@ TEST_F(ExportOfSpheres, HasNormalForceAndModulusOfTheTangentialOneInVtk)
   EXPECT_FLOAT_EQ(array_in<float>(contacts, "normal_force")[2], static_cast<float>(normal));
   const auto points = array_in<float>(contacts, "Points");
   EXPECT_FLOAT_EQ(points[8], 0.006F);   // z of the middle grain
-  EXPECT_FLOAT_EQ(points[11], 0.010F);  // less that of the branch
+  EXPECT_FLOAT_EQ(points[11], 0.010F);  // minus z of the branch
   EXPECT_EQ(array_in<std::int32_t>(contacts, "species_i"),
             (std::vector<std::int32_t>{2, 1, 0, 0, 0, 2}));
   EXPECT_EQ(array_in<std::int32_t>(contacts, "species_j"),

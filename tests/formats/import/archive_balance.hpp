@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-/// Newton's law on the moments of an archive.
+/// Newton's law in the frames of an archive.
 namespace grseg::archive_balance {
 
 inline std::vector<ArchiveMoment> all_of(Archive& archive)
@@ -17,7 +17,7 @@ inline std::vector<ArchiveMoment> all_of(Archive& archive)
   return moments;
 }
 
-/// Entry of a grain by its id.
+/// Entry of each grain, by its id.
 inline std::map<std::int64_t, std::size_t> entries(const ArchiveGrains& grains)
 {
   std::map<std::int64_t, std::size_t> entry;
@@ -50,8 +50,8 @@ inline std::vector<Vec3> contact_forces(const ArchiveMoment& moment)
   return sum;
 }
 
-/// Largest |contact forces + m g - force| of a grain that is not held, over the largest contact
-/// force or weight.
+/// Largest |contact forces + m g - force| of a grain that is not held, divided by the largest
+/// contact force or weight.
 inline double residual(const ArchiveMoment& moment, const Vec3& gravity)
 {
   const auto& grains = moment.grains;

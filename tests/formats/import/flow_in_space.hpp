@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-/// A few spheres in the axes of grseg, and the archives that would hold them in other axes.
+/// A few spheres in the axes of grseg, and archives that contain the same spheres in other axes.
 namespace grseg::flow_in_space {
 
-/// The axes of grseg in those of an archive: the columns are x, y and z. Written out, so that the
-/// tests do not rely on how the program finds them.
+/// Axes of grseg expressed in the axes of an archive: the columns are x, y and z. They are written
+/// out, so that the tests do not rely on how the program finds them.
 struct View {
-  const char* axes;  // --axes
+  const char* axes;  // value of --axes
   Eigen::Matrix3d turn;
 };
 
@@ -29,7 +29,7 @@ inline Eigen::Matrix3d columns(const Vec3& x, const Vec3& y, const Vec3& z)
   return turn;
 }
 
-/// The second half looks from behind: there gravity has a component against the x that --axes names.
+/// The second half looks from behind: gravity then has a component against the x axis that --axes names.
 inline std::vector<View> views()
 {
   const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
@@ -38,9 +38,9 @@ inline std::vector<View> views()
           {"xz", columns(-x, z, y)}, {"yz", columns(-y, z, -x)}, {"zy", columns(-z, y, x)}};
 }
 
-/// A large sphere (row 1) on one of the base (row 0), which it touches across both periods, a small
-/// one (row 2) on it, and a small one (row 3) that flies. Nothing is symmetric, and every vector has
-/// three components.
+/// A large sphere (row 1) on a base sphere (row 0), which it touches across both periods; a small
+/// one (row 2) on it; and a small one (row 3) without contacts. Nothing is symmetric, and every
+/// vector has three components.
 struct Flow {
   Grains grains;
   Box box;
@@ -82,7 +82,7 @@ struct Flow {
     frame.contacts.branch.push_back(branch);
     frame.contacts.gap.push_back(gap);
   }
-  /// Under the small flying one.
+  /// Adds a wall under the small sphere that has no contacts.
   void add_wall()
   {
     add_contact(3, -2, {0.5, 3, -0.75}, {0.1, 0.48, 0.05}, -0.005);
@@ -101,7 +101,7 @@ struct Flow {
   }
 };
 
-/// The cell of an archive, in its axes, and what positions in it are.
+/// Cell of an archive, in the archive's axes, and positions in it.
 class Cell {
  public:
   Cell(const Flow& flow, const View& view) : view_(view)
@@ -113,10 +113,10 @@ class Cell {
       const double most = view.turn.col(d).cwiseAbs().maxCoeff(&axis);
       low[axis] = -3.25 - axis;
       high[axis] = low[axis] + length[d];
-      if (most < 1) continue;  // along no axis of the archive
+      if (most < 1) continue;  // not along an axis of the archive
       periodic[static_cast<std::size_t>(axis)] = periodic_along[static_cast<std::size_t>(d)];
       const bool forward = view.turn(axis, d) > 0;
-      // y = 0, the top of the base, is half-way up.
+      // y = 0, the top of the base, is at half the height of the cell.
       offset_[axis] = d == 1 ? low[axis] + 20 : forward ? low[axis] : high[axis];
     }
   }
@@ -149,7 +149,7 @@ inline std::string lammps_header(const Flow& flow, const Cell& cell, const char*
 inline constexpr const char* lammps_columns =
     "id type mass radius x y z ix iy iz vx vy vz omegax omegay omegaz fx fy fz";
 
-/// Types are 1 base, 2 small, 3 large; grains in reverse order.
+/// Dump of grains; types are 1 base, 2 small, 3 large; grains in reverse order.
 inline std::string lammps_grains(const Flow& flow, const View& view)
 {
   const Cell cell(flow, view);
@@ -167,7 +167,7 @@ inline std::string lammps_grains(const Flow& flow, const View& view)
   return text_of_all;
 }
 
-/// Normal and tangential parts, every second row from the other grain's side.
+/// Dump of contacts with normal and tangential parts; in every second row the grains are exchanged.
 inline std::string lammps_contacts(const Flow& flow, const View& view)
 {
   const auto& contacts = flow.frame.contacts;
@@ -223,7 +223,7 @@ inline std::string csv_contacts(const Flow& flow, const View& view)
   return rows;
 }
 
-/// What a user who knows the run would say of it.
+/// Settings of a user who knows the run.
 inline ImportSettings settings_of(const lammps_text::Folder& folder, const std::string& format,
                                   const View& view, const Flow& flow, const std::string& grains,
                                   const std::string& contacts)

@@ -7,18 +7,19 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
-/// Small archives as LAMMPS would write them, and what becomes of them.
+/// Small archives as LAMMPS would write them, and their imports.
 namespace grseg::lammps_text {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes with its test.
+/// A folder that is removed at the end of the test.
 class Folder {
  public:
   Folder() : path_(fs::temp_directory_path() / fmt::format("grseg_import_test_{}", getpid()))
@@ -35,7 +36,7 @@ class Folder {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return *this / name;
   }
-  /// Names of the files in it.
+  /// Number of files in the folder.
   std::size_t files() const
   {
     std::size_t count = 0;
@@ -60,7 +61,7 @@ inline std::string read(const std::string& path)
   return text.str();
 }
 
-inline std::string block(const std::string& what, int step, const std::string& columns,
+inline std::string block(const std::string& what, std::int64_t step, const std::string& columns,
                          const std::vector<std::string>& rows,
                          const std::string& boundary = "pp ff pp")
 {
@@ -72,10 +73,10 @@ inline std::string block(const std::string& what, int step, const std::string& c
   return text;
 }
 
-/// A large disc (id 7, type 2) at rest on a base disc (id 9, type 3), a small one (id 4, type 1) on
-/// top: density 1, slope 30 degrees, g = 10, so that gravity is (5, -8.66) and each contact carries
-/// the weight above it: a normal part along y and a tangential one along x, which friction holds.
-/// Radii are 0.005, 0.005 and 0.0025; the discs just touch.
+/// A large disc (id 7, type 2) at rest on a base disc (id 9, type 3), and a small one (id 4, type
+/// 1) on top. Density 1, slope 30 degrees, g = 10, so gravity is (5, -8.66). Each contact carries
+/// the weight above it: a normal part along y and a tangential one along x, held by friction. Radii
+/// are 0.005, 0.005 and 0.0025; the discs just touch.
 constexpr double pi = 3.14159265358979323846;
 constexpr double small_mass = pi * 0.0025 * 0.0025, large_mass = pi * 0.005 * 0.005;
 constexpr double gx = 5, gy = -8.6602540378443865;
@@ -90,8 +91,8 @@ inline std::vector<std::string> grain_rows(double x = 0.05)
           fmt::format("7 2 {} 0.005 {} 0.005 0 0 0 0 0", large_mass, x)};
 }
 
-/// Of the ten columns of the recipe, index patom1 patom2 dist fx fy fz p1 p2 p3; `upper` and
-/// `lower` touch, and `mass` rests on the contact. The upper one is patom1 unless `swapped`.
+/// Row with the ten columns of the recipe, index patom1 patom2 dist fx fy fz p1 p2 p3. Grains `upper` and
+/// `lower` touch, and the contact carries `mass`. The upper one is patom1 unless `swapped`.
 inline std::string contact_row(int upper, int lower, double dist, double mass, bool swapped = false)
 {
   const double sign = swapped ? -1 : 1;
@@ -108,16 +109,16 @@ inline std::vector<std::string> contact_rows()
           contact_row(7, 9, 0.01, small_mass + large_mass, true)};
 }
 
-inline std::string grains_at(int step)
+inline std::string grains_at(std::int64_t step)
 {
   return block("ATOMS", step, grain_columns, grain_rows());
 }
-inline std::string contacts_at(int step)
+inline std::string contacts_at(std::int64_t step)
 {
   return block("ENTRIES", step, contact_columns, contact_rows());
 }
 
-/// What a user who knows the run would say of it.
+/// Settings of a user who knows the run.
 inline ImportSettings settings(const Folder& folder, const std::string& grains,
                                const std::string& contacts)
 {
@@ -134,7 +135,7 @@ inline ImportSettings settings(const Folder& folder, const std::string& grains,
   return s;
 }
 
-/// Exit code and sentence of what an import throws; 0 and "" where it does not.
+/// Exit code and message of the error that an import throws; 0 and "" if there is none.
 struct Refusal {
   int code = 0;
   std::string sentence;

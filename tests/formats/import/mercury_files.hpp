@@ -10,17 +10,17 @@
 #include <fstream>
 #include <string>
 
-/// A frame of grseg in the files of MercuryDPM, by the rules of its own source.
+/// A frame of grseg in the files of MercuryDPM, written by the rules of its source.
 namespace grseg::mercury_files {
 
 struct Style {
   int format = 8;      // 7, 8, 14, 15
-  bool flags = false;  // of parallel builds, behind each row of .data
+  bool flags = false;  // flags of parallel builds, at the end of each row of .data
   int point = 1;       // 1: cx cy cz are the contact point, 0: the middle of the centres
-  double info = -1;    // instead of the species
+  double info = -1;    // number in the column of the species
 };
 
-/// In three components, as all files but those of format 8 have them.
+/// A vector with three components, as in all files except those of format 8.
 template <int D>
 Vec3 in_space(const Vector<D>& v)
 {
@@ -86,7 +86,8 @@ inline std::string row(double time, std::int64_t i, std::int64_t j, const Vec3& 
                      overlap, fn, ft, text(n, 10), text(t, 10));
 }
 
-/// Pairs twice, unless one is fixed or they touch across the period; walls the other way round.
+/// Rows of contacts: pairs appear twice, unless one grain is fixed or they touch across the period;
+/// walls with opposite sign.
 template <int D>
 std::string fstat(const Grains& grains, const Frame<D>& frame, const Style& style)
 {
@@ -99,7 +100,7 @@ std::string fstat(const Grains& grains, const Frame<D>& frame, const Style& styl
     const double overlap = -contacts.gap[c];
     if (contacts.j[c] < 0) {
       const Vec3 point = x - (grains.radius[i] - overlap / 2) * n;
-      // n and t are turned round, fn and ft are not: the force is -(fn n + ft t).
+      // n and t are reversed, fn and ft are not: the force is -(fn n + ft t).
       rows += row(frame.time, contacts.i[c], contacts.j[c], point, overlap, -force, -n);
       continue;
     }
@@ -114,7 +115,7 @@ std::string fstat(const Grains& grains, const Frame<D>& frame, const Style& styl
   return rows;
 }
 
-/// Along an axis of the archive.
+/// Period along an axis of the archive.
 struct Period {
   Vec3 normal;
   double left, right;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grains that come and go: NaN for what is absent, in files that say so, and nothing in between.
+// Grains that come and go: files that declare them have NaN for absent grains; mixed forms are refused.
 #include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Three frames of the three grains; the small one, which lies on the large one, is not there in the
-/// second.
+/// Three frames of the three grains; the small grain, which lies on the large one, is absent in the
+/// second frame.
 class AbsentGrains : public Trajectory {
  protected:
   static Frame<2> frame_without_small(std::int64_t number)
@@ -88,8 +88,8 @@ TEST_F(AbsentGrains, AreRefusedInARunThatDoesNotSayThatGrainsComeAndGo)
     FAIL() << "was written";
   } catch (const RunError& error) {
     EXPECT_EQ(error.what(), path +
-                                ": grain 8 has no position in frame 1, in a run whose grains "
-                                "are always there");
+                                ": grain 8 has no position in frame 1, but this run allows no "
+                                "absent grains");
   }
 }
 
@@ -119,7 +119,7 @@ TEST_F(AbsentGrains, AGrainThatIsThereByHalfIsNamed)
     return path + ": /particles/grains/" + field + "/value of grain 1 in frame 1 is " + what +
            "; the frame is damaged";
   };
-  const char* number = "not NaN throughout, though its position says that it is absent";
+  const char* number = "not NaN, although the position marks the grain as absent";
   EXPECT_EQ(complaint_of("velocity", 6 + 2, 0.5), sentence("velocity", number));
   EXPECT_EQ(complaint_of("force", 6 + 3, 0.5), sentence("force", number));
   EXPECT_EQ(complaint_of("position", 6 + 2, 0.5), sentence("position", number));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compressed runs, which threads decompress outside HDF5: whatever the chunks, the same numbers.
+// Compressed runs, which threads decompress outside HDF5: numbers do not depend on how chunks are stored.
 #include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
@@ -15,7 +15,7 @@ constexpr TrajectoryReader::Fields everything{.velocity = true, .contacts = true
 constexpr int frames = 7;
 const char* const gaps = "/grseg/contacts/gap";
 
-/// A chunk as the file holds it.
+/// A chunk as stored in the file.
 struct Stored {
   std::vector<char> bytes;
   std::uint32_t filters_left_out = 0;
@@ -67,7 +67,7 @@ TEST_F(Trajectory, ChunksOfSeveralFramesAndFramesOfSeveralChunksGiveTheSameNumbe
   }
 }
 
-// As HDF5 leaves it where compression would not make it smaller.
+// HDF5 stores a chunk like this if compression would not make it smaller.
 TEST_F(Trajectory, AChunkThatIsStoredAsItIsGivesTheSameNumbers)
 {
   three_grains::write(path, frames, {.compression = 6, .contact_chunk = 4});
@@ -131,13 +131,13 @@ TEST_F(Trajectory, AChunkWhoseFiltersWereLeftOutMustHaveItsSize)
   tamper([](hid_t file) {
     auto chunk = read_chunk(file, gaps, 4);
     chunk.filters_left_out = 3;
-    chunk.bytes.push_back(0);  // HDF5 takes no notice of another mask where the size is the same
+    chunk.bytes.push_back(0);  // HDF5 ignores a different mask if the size is equal
     write_chunk(file, gaps, 4, chunk);
   });
   expect_part(complaint(), std::string(gaps) + ": chunk 1");
 }
 
-// Each has loaded all its frames before another one unpacks, so that they share chunks.
+// Each thread has loaded all its frames before another one decompresses, so that they share chunks.
 TEST_F(Trajectory, SeveralThreadsUnpackTheSameChunks)
 {
   three_grains::write(path, frames, {.compression = 6});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damaged and foreign files are refused with one sentence.
+// Damaged and foreign files are refused with one message.
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
 #include <sys/wait.h>
@@ -12,7 +12,7 @@
 namespace grseg {
 namespace {
 
-// HDF5 reads such structures again and again, in case that their writer is about to complete them.
+// HDF5 reads such structures repeatedly, in case their writer is about to complete them.
 TEST_F(Trajectory, ADamagedStructureOfARunThatWasKilledIsNamedAtOnce)
 {
   const pid_t child = fork();
@@ -96,7 +96,7 @@ TEST_F(Trajectory, OneOtherNumberAnywhereIsNamed)
 TEST_F(Trajectory, AFrameThatStandsInThePlaceOfAnotherIsNamed)
 {
   three_grains::write(path, 3);
-  tamper([](hid_t file) {  // as where an index leads to the chunk of another frame
+  tamper([](hid_t file) {  // as if an index pointed to the chunk of another frame
     const hid_t id = H5Dopen2(file, "/particles/grains/position/value", H5P_DEFAULT);
     std::vector<double> values(18);
     H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
@@ -117,8 +117,8 @@ TEST_F(Trajectory, AClosedFileThatLostItsLastFramesIsRefused)
     H5Dclose(id);
   });
   EXPECT_EQ(complaint(), path +
-                             ": /grseg/seal names other frames or another summary than the file "
-                             "holds: the file is damaged; take a copy that is whole");
+                             ": /grseg/seal does not agree with the frames or the summary in the "
+                             "file: the file is damaged; use an intact copy");
 }
 
 TEST_F(Trajectory, WhatIsKnownAtTheEndIsSealed)
@@ -129,7 +129,7 @@ TEST_F(Trajectory, WhatIsKnownAtTheEndIsSealed)
   writer.close();
   EXPECT_EQ(TrajectoryReader(path).parameters().number("summary_mean_gap", path), 1e-5);
   tamper([](hid_t file) { add_to(file, "/parameters/summary_mean_gap", 0, 1); });
-  EXPECT_NE(complaint().find("/grseg/seal names"), std::string::npos);
+  EXPECT_NE(complaint().find("/grseg/seal does not agree"), std::string::npos);
 }
 
 TEST_F(Trajectory, AFieldThatIsNotReadNeedNotBeWhole)
@@ -236,7 +236,7 @@ TEST_F(Trajectory, AMissingFileIsAUsageError)
 TEST_F(Trajectory, ADamagedChunkFailsItsChecksum)
 {
   three_grains::write(path, 2, {.compression = 0});
-  // The stored bytes of the second frame's first x.
+  // Stored bytes of the first x of the second frame.
   const double x = three_grains::frame(1).position[0].x();
   std::string pattern(reinterpret_cast<const char*>(&x), sizeof x), whole;
   {

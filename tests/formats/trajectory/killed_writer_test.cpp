@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a kill leaves that cuts a write. Linux copies what is written page by page, and a signal that
-// ends the process stops it between two pages.
+// Files after a kill that interrupts a write. Linux copies written data page by page, and a signal
+// that ends the process stops it between two pages.
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
 #include <fcntl.h>
@@ -18,11 +18,11 @@ constexpr std::int64_t page = 4096;
 struct Write {
   std::int64_t begin;
   std::string bytes;
-  std::size_t committed;  ///< frames, before it
+  std::size_t committed;  ///< number of frames committed before the write
 
   std::int64_t end() const { return begin + static_cast<std::int64_t>(bytes.size()); }
   bool crosses_a_page() const { return begin / page != (end() - 1) / page; }
-  /// Whether HDF5 finds damage in it where any byte is wrong: a header, or a part of an index.
+  /// True if HDF5 detects a wrong byte anywhere in it, because it is a header or a part of an index.
   bool is_checked_as_a_whole() const
   {
     constexpr std::string_view marks[] = {"OHDR", "OCHK", "EAHD", "EAIB", "EASB",   "EADB",
@@ -33,12 +33,12 @@ struct Write {
   }
 };
 
-std::vector<Write>* record = nullptr;  ///< of what is written, where there is one
+std::vector<Write>* record = nullptr;  ///< list of all writes, if recording
 std::size_t committed = 0;
 
 struct LiveRun {
   std::vector<Write> writes;
-  std::size_t creation = 0;  ///< so many of them before the file had its name
+  std::size_t creation = 0;  ///< number of writes before the file had its name
 };
 
 LiveRun live_run(const std::string& path, std::size_t frames)
@@ -63,7 +63,7 @@ ssize_t write_at(int file, const void* bytes, std::size_t count, off_t at)
 }  // namespace
 }  // namespace grseg
 
-/// Takes the place of the C library's, which HDF5 calls.
+/// Replaces the function of the C library, which HDF5 calls.
 extern "C" ssize_t pwrite(int file, const void* bytes, size_t count, off_t at)
 {
   using namespace grseg;
@@ -82,7 +82,7 @@ class KilledWriter : public Trajectory {
     Trajectory::TearDown();
     fs::remove(left);
   }
-  /// All frames that were committed are there, and no more than the one that was being written.
+  /// Expects all committed frames, and at most the one that was being written in addition.
   void expect_all(std::size_t frames, const std::string& after) const
   {
     const TrajectoryReader reader(left);
@@ -100,7 +100,7 @@ class KilledWriter : public Trajectory {
 
 TEST_F(KilledWriter, LeavesAllCommittedFramesWhereverItsWritesAreCut)
 {
-  // Here parts of the index no longer fit into 512 bytes.
+  // From here on, parts of the index no longer fit into 512 bytes.
   constexpr std::size_t judged_from = 116, frames = 124;
   const auto run = live_run(path, frames);
   const int file = open(left.c_str(), O_RDWR | O_CREAT | O_TRUNC, 0600);

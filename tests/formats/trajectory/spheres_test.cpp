@@ -25,7 +25,7 @@ class Spheres : public Trajectory {
     ASSERT_GE(H5Dwrite(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), 0);
     H5Dclose(id);
   }
-  /// The middle one of the species.
+  /// Renames the middle one of the species.
   static void rename(hid_t file, std::string name)
   {
     name.resize(16, '\0');
@@ -75,7 +75,7 @@ TEST_F(Spheres, AreReadBackToTheLastBit)
   }
 }
 
-// Memory for two components must not be given three.
+// Memory for two components must not receive three.
 TEST_F(Spheres, AreRefusedByReadersOfDiscs)
 {
   spheres::write(path, 1);
@@ -184,7 +184,7 @@ struct ChangedNumber {
   double by = 1;
 };
 
-// The entries are z of a grain or contact of frame 1, or stand in the list of species.
+// Damaged entries are z of a grain or contact in frame 1, or entries of the list of species.
 TEST_F(Spheres, AreRefusedByNameIfOneNumberIsAnother)
 {
   const std::string once = "box, grains, species, observables or parameters are";
@@ -219,7 +219,7 @@ TEST_F(Spheres, AreRefusedIfTheCellIsSaidToEndAcross)
             std::string::npos);
 }
 
-// --- Boxes and lists of species that cannot be. ---
+// --- Invalid boxes and lists of species. ---
 
 TEST_F(Spheres, InACellWithAPeriodAlongYAreRefused)
 {
@@ -268,7 +268,7 @@ TEST_F(Spheres, OfSpeciesThatAreNotInOrderOfSizeAreRefused)
   std::swap(run.species[0], run.species[1]);
   EXPECT_EQ(complaint_of(run), sentence);
   spheres::write(path, 1);
-  tamper([](hid_t file) {  // the boundary first
+  tamper([](hid_t file) {  // the boundary becomes the first species
     const std::vector<std::uint8_t> mobile{0, 1, 1, 1};
     rewrite(file, "/grseg/species/mobile", H5T_NATIVE_UINT8, mobile.data());
   });
@@ -315,7 +315,7 @@ TEST_F(Spheres, OfTwoSpeciesOfOneNameAreRefused)
 {
   auto run = spheres::description();
   run.species[1].name = "coarse";
-  EXPECT_EQ(complaint_of(run), path + ": /grseg/species/name holds coarse twice");
+  EXPECT_EQ(complaint_of(run), path + ": /grseg/species/name contains coarse twice");
 }
 
 TEST_F(Spheres, OfASpeciesWhoseNameFitsNoTableAreNotWritten)
@@ -337,11 +337,11 @@ TEST_F(Spheres, OfASpeciesWhoseNameFitsNoTableAreRefused)
            {"", ""}, {"a+b", "a+b"}, {"a\tb", "a\\x09b"}, {"boundary", "boundary"}}) {
     spheres::write(path, 1);
     tamper([&](hid_t file) { rename(file, names.first); });
-    EXPECT_EQ(complaint(), path + ": /grseg/species/name holds '" + names.second + "': " + rule);
+    EXPECT_EQ(complaint(), path + ": /grseg/species/name contains '" + names.second + "': " + rule);
   }
 }
 
-// A diameter that the tools take from the list, and one that they take from the parameters.
+// One diameter that tools read from the list, and one that they read from the parameters.
 TEST_F(Spheres, WhoseListDisagreesWithTheParametersAreRefused)
 {
   auto run = spheres::description();

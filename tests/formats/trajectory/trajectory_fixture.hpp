@@ -19,7 +19,7 @@ namespace grseg {
 
 namespace fs = std::filesystem;
 
-/// A file of the test's own, and what a reader of it complains of.
+/// A test with a file of its own, and the message of a reader that refuses the file.
 class Trajectory : public testing::Test {
  protected:
   std::string path =
@@ -27,7 +27,7 @@ class Trajectory : public testing::Test {
           .string();
   void TearDown() override { fs::remove(path); }
 
-  /// Opens the file for damage and hands it to `damage`.
+  /// Opens the file and passes it to `damage`.
   template <class Damage>
   void tamper(Damage damage)
   {
@@ -70,7 +70,7 @@ class Trajectory : public testing::Test {
     H5Sclose(space);
     H5Dclose(id);
   }
-  /// A run that was not closed.
+  /// Writes a run that was not closed.
   void write_unfinished(int frames) const
   {
     TrajectoryWriter writer(path, three_grains::description());
@@ -95,8 +95,8 @@ class Trajectory : public testing::Test {
     return complaint({.velocity = true, .contacts = true, .force = true}, verify);
   }
   const std::string changed =
-      " is not what was written: the file is damaged; take a copy that is whole, or leave the frame "
-      "out with --begin or --end";
+      " is not what was written: the file is damaged; use an intact copy, or leave the frame out "
+      "with --begin or --end";
 };
 
 template <int D>

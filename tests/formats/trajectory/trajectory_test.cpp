@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is written is read back, also after a kill and while the run goes on.
+// Data that are written are read back, also after a kill and while the run continues.
 #include "formats/trajectory/digest.hpp"
+#include "formats/trajectory/layout.hpp"
 #include "formats/trajectory/writer.hpp"
 #include "tests/formats/trajectory/trajectory_fixture.hpp"
 
@@ -35,6 +36,11 @@ TEST_F(Trajectory, WhatIsWrittenIsReadBackToTheLastBit)
     reader.read(k, frame, {.velocity = true, .contacts = true, .force = true});
     expect_same(frame, three_grains::frame(static_cast<std::int64_t>(k)));
   }
+}
+
+TEST(Layout, IsOneTableInAllTranslationUnits)
+{
+  EXPECT_EQ(&row_at(layout.front().path), &layout.front());
 }
 
 TEST_F(Trajectory, CompressionChangesNoNumberAndNoDigest)
@@ -98,7 +104,7 @@ TEST_F(Trajectory, TheDigestShowsAnyChangeInAnyFrame)
 TEST_F(Trajectory, AnInterruptedFrameIsInvisible)
 {
   write_unfinished(3);
-  // What a run leaves that stops between the rows of a frame and its entry in `offset`.
+  // State of the file if a run stops between the rows of a frame and its entry in `offset`.
   tamper([](hid_t file) {
     const hid_t id = H5Dopen2(file, "/grseg/contacts/offset", H5P_DEFAULT);
     const hsize_t entries = 3;
@@ -214,7 +220,7 @@ TEST_F(Trajectory, TheSameRunGivesTheSameBytes)
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   const auto first = bytes();
-  usleep(1100000);  // object times would be in whole seconds
+  usleep(1100000);  // object times have a resolution of whole seconds
   EXPECT_EQ(bytes(), first);
 }
 
@@ -222,7 +228,7 @@ TEST_F(Trajectory, ARunThatIsBeingWrittenIsReportedAsSuch)
 {
   three_grains::write(path, 1);
   const int file = open(path.c_str(), O_RDWR);
-  ASSERT_EQ(flock(file, LOCK_EX), 0);  // as HDF5 does while it writes
+  ASSERT_EQ(flock(file, LOCK_EX), 0);  // HDF5 holds this lock while it writes
   EXPECT_EQ(complaint(),
             path + ": is being written by a run; wait until the run has ended, or read a copy");
   close(file);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Discs of two sizes in Siconos: they fall onto five fixed ones and roll against a plate."""
+"""Discs of two sizes in Siconos: they fall onto five fixed discs and roll against a plate."""
 import math
 import random
 from siconos.mechanics.collision.bullet import SiconosBulletOptions

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Spheres of two sizes in Siconos: they fall obliquely onto fixed ones and roll against a plate."""
+"""Spheres of two sizes in Siconos: they fall obliquely onto fixed spheres and roll against a plate."""
 import math
 import random
 from siconos.mechanics.collision.bullet import SiconosBulletOptions

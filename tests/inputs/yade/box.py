@@ -1,8 +1,8 @@
-"""Spheres of two sizes are poured into a box of YADE, with a Wall as floor, facets at two sides and boxes at two.
+"""Spheres of two sizes are poured into a box in YADE: a Wall is the floor, facets are two of its sides, boxes the other two.
 
     PYTHONPATH=../../../scripts/archives yade -x -n -j1 box.py
 
-Writes box-grains.csv.gz and box-contacts.csv.gz, and box-walls.csv: the force that YADE itself sums on each wall.
+Writes box-grains.csv.gz and box-contacts.csv.gz, and box-walls.csv: the total force on each wall as YADE itself computes it.
 """
 import random
 
@@ -22,7 +22,7 @@ placed = 0
 
 
 def pour():
-    """Four more grains, as long as there are fewer than 80."""
+    """Adds four grains, as long as there are fewer than 80."""
     global placed
     for k in range(4 if placed < 80 else 0):
         radius = 0.008 if placed % 4 == 0 else 0.004 * random.uniform(0.95, 1.05)

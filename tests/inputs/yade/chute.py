@@ -1,4 +1,4 @@
-"""A chute of spheres of two sizes in YADE, periodic down the slope and across, on spheres that are held.
+"""A chute of spheres of two sizes in YADE, periodic down the slope and across, on a base of fixed spheres.
 
     PYTHONPATH=../../../scripts/archives yade -x -n -j1 chute.py
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace law = HWY_NAMESPACE;
 
-/// Two discs whose centres lie along (0.6, 0.8), or one on something immobile (b of mass 0).
+/// Two discs with centres along (0.6, 0.8), or one disc on an immobile body (b of mass 0).
 struct TwoDiscs {
   std::vector<Motion> motion;
   std::vector<Contact> contacts;
@@ -58,7 +58,7 @@ double mass(const Motion& m)
 
 TEST(ContactLaw, AnImpactConservesMomentumAndAngularMomentum)
 {
-  // Radii 2 and 1: masses as their squares; centres 3 apart along (0.6, 0.8).
+  // Radii 2 and 1, masses as their squares, centres 3 apart along (0.6, 0.8).
   const double ra = 2, rb = 1;
   TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0});
   const auto momentum_x = [&] {
@@ -67,7 +67,8 @@ TEST(ContactLaw, AnImpactConservesMomentumAndAngularMomentum)
   const auto momentum_y = [&] {
     return mass(s.motion[0]) * s.motion[0].vy + mass(s.motion[1]) * s.motion[1].vy;
   };
-  // About the centre of b: orbital part of a (at 3 n from b) and the spins, I omega = m r v_rim/2.
+  // Angular momentum about the centre of b: orbital part of a (at 3 n from b) plus the spins, I
+  // omega = m r v_rim/2.
   const auto angular = [&] {
     const double orbital = mass(s.motion[0]) * (1.8 * s.motion[0].vy - 2.4 * s.motion[0].vx);
     return orbital + mass(s.motion[0]) * ra * s.motion[0].rim_speed / 2 +
@@ -83,7 +84,7 @@ TEST(ContactLaw, AnImpactConservesMomentumAndAngularMomentum)
 
 TEST(ContactLaw, AngularMomentumIsConservedAlsoWhereDiscsOverlap)
 {
-  // Centres 2.7 apart instead of 3: lever arms kappa r add up to the distance.
+  // Centres 2.7 apart instead of 3; the lever arms kappa r add up to the distance.
   const double kappa = 0.9;
   TwoDiscs s({-1, -2, 3, 1.0 / 4}, {0.5, 1, -1, 1.0}, 0.6, 0.8, kappa);
   const auto angular = [&] {
@@ -122,7 +123,7 @@ TEST(ContactLaw, ANormalImpactLosesOneMinusESquaredOfItsRelativeEnergy)
 
 TEST(ContactLaw, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
 {
-  // On a wall, u_t = v_t: it sticks iff |u_t| <= 3 mu (1 + e) |u_n|, and then v_t' = 2/3 v_t.
+  // On a wall, u_t = v_t: the disc sticks iff |u_t| <= 3 mu (1 + e) |u_n|, and then v_t' = 2/3 v_t.
   const double e = 0.25, mu = 0.5, cone = 3 * mu * (1 + e);
   for (const double slip : {0.5 * cone, 0.999 * cone, 1.001 * cone, 4 * cone}) {
     TwoDiscs s({-slip, -1, 0, 1}, {0, 0, 0, 0}, 0, 1);  // t = (-1, 0): u_t = slip
@@ -138,8 +139,9 @@ TEST(ContactLaw, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
   }
 }
 
-/// A disc of mass 1 that meets a wall below it with `slip` along x and 1 down, and rebounds with e times
-/// that; it may bear an impulse `base` from before, which its velocity contains. The tangent is (-1, 0).
+/// A disc of mass 1 that hits a wall below it with velocity `slip` along x and 1 downward, and rebounds
+/// with e times that. It may have an impulse `base` from earlier sweeps, which its velocity includes.
+/// The tangent is (-1, 0).
 struct SingleImpact {
   Increments<float> contact{0, 1, 1, 1, 0, 1.0F / 3, 0.25F, 0, 0, 0, 0};
   MotionOf<float> disc, wall;
@@ -170,19 +172,19 @@ TEST(ContactLaw, InSinglePrecisionAnImpactSticksInsideTheConeAndSlidesOutside)
 
 TEST(ContactLaw, InSinglePrecisionALoadFromBeforeBearsFrictionAndIsGivenBackAtMost)
 {
-  // With 10 from before friction may stop 0.5 (10 + 1.25).
+  // With an earlier impulse of 10, friction may stop 0.5 (10 + 1.25).
   EXPECT_NEAR(SingleImpact(20).disc.vx, 20 - 0.625F, 1e-5F);
   EXPECT_NEAR(SingleImpact(20, 10).disc.vx, 20 - 5.625F, 1e-5F);
   EXPECT_NEAR(SingleImpact(-20, 10).disc.vx, -20 + 5.625F, 1e-5F);
   EXPECT_FLOAT_EQ(SingleImpact(0, 10).relaxed.level_n, 11.25F);
-  // What friction bears already counts against its limit.
+  // The friction impulse from earlier sweeps counts towards its limit.
   SingleImpact loaded(0, 10);
   loaded.contact.base_t = -5.625F;
   loaded.disc = {-20, 0.25F, 0};
   law::relax<Effects{}>(loaded.contact, loaded.disc, loaded.wall, 0.5F);
   EXPECT_NEAR(loaded.contact.impulse_t, 0, 1e-5F);
   EXPECT_NEAR(loaded.disc.vx, -20, 1e-5F);
-  // A disc that parts lets go of no more than there is.
+  // A disc that parts gives back no more impulse than it has.
   loaded.contact.rebound = 0;
   loaded.contact.base_t = 0;
   loaded.disc = {0, 100, 0};
@@ -192,7 +194,8 @@ TEST(ContactLaw, InSinglePrecisionALoadFromBeforeBearsFrictionAndIsGivenBackAtMo
 
 TEST(ContactLaw, ASlidingDiscEndsRollingAtTwoThirdsOfItsSpeed)
 {
-  // Enough normal impulse lets friction finish: angular momentum about the contact stays.
+  // The normal impulse is large enough for friction to stop the sliding; the angular momentum about
+  // the contact is conserved.
   TwoDiscs s({3, -10, 0, 1}, {0, 0, 0, 0}, 0, 1);
   s.collide(0);
   EXPECT_NEAR(s.motion[0].vx, 2, 1e-14);
@@ -230,7 +233,7 @@ TEST(ContactLaw, TheResidualIsTheApproachOfAContactThatWasNotSolved)
 
 TEST(ContactLaw, TheResidualIsTheSlidingVelocityThatFrictionCouldHaveStopped)
 {
-  // On a wall with t = (-1, 0): at rest along the normal, under load, sliding.
+  // On a wall with t = (-1, 0): at rest along the normal, with a load, sliding.
   TwoDiscs s({-0.3, 0, 0, 1}, {0, 0, 0, 0}, 0, 1);
   s.contacts[0].impulse_n = 4;  // stops 6 m/s
   EXPECT_NEAR(s.residual(), 0.3, 1e-14);
@@ -241,14 +244,14 @@ TEST(ContactLaw, TheResidualIsTheSlidingVelocityThatFrictionCouldHaveStopped)
 TEST(ContactLaw, TheResidualShowsAnImpulseOnDiscsThatSeparateAndFrictionOutsideTheCone)
 {
   TwoDiscs parting({0, 2, 0, 1}, {0, 0, 0, 0}, 0, 1);
-  parting.contacts[0].impulse_n = 0.5;  // all of it is taken back: W_nn p_n = 0.5 m/s
+  parting.contacts[0].impulse_n = 0.5;  // the whole impulse is removed: W_nn p_n = 0.5 m/s
   EXPECT_NEAR(parting.residual(), 0.5, 1e-14);
   TwoDiscs pulled({0, 0, 0, 1}, {0, 0, 0, 0}, 0, 1);
   pulled.contacts[0].impulse_n = -0.5;
   EXPECT_NEAR(pulled.residual(), 0.5, 1e-14);
   TwoDiscs rough({0, 0, 0, 1}, {0, 0, 0, 0}, 0, 1);
   rough.contacts[0].impulse_n = 1;
-  rough.contacts[0].impulse_t = 0.7;  // the cone ends at 0.5; W_tt = 3
+  rough.contacts[0].impulse_t = 0.7;  // Coulomb's limit is 0.5; W_tt = 3
   EXPECT_NEAR(rough.residual(), 0.6, 1e-14);
 }
 
@@ -276,11 +279,11 @@ TEST(ContactLaw, APairThatTouchesReboundsAtOnceAndOneStillApartAStepLater)
   };
   EXPECT_EQ(rebound(0, 0, 0), std::pair(0.5, 0.0));  // e |u|
   EXPECT_EQ(rebound(-0.1, 3, 0), std::pair(0.5, 0.0));
-  EXPECT_EQ(rebound(0.1, 0, 0), std::pair(-0.2, 2.0));  // -gap/horizon, and |u| is remembered
-  EXPECT_EQ(rebound(0.1, 3, 0), std::pair(-0.2, 0.0));  // under load before: nothing to remember
+  EXPECT_EQ(rebound(0.1, 0, 0), std::pair(-0.2, 2.0));  // -gap/horizon; |u| is stored
+  EXPECT_EQ(rebound(0.1, 3, 0), std::pair(-0.2, 0.0));  // with a load before: nothing is stored
   EXPECT_EQ(rebound(2, 0, 0), std::pair(-4.0, 0.0));    // too slow to close its gap
-  EXPECT_EQ(rebound(0.1, 3, 7), std::pair(1.75, 0.0));  // e times what was remembered
-  // Without a horizon it rebounds at once.
+  EXPECT_EQ(rebound(0.1, 3, 7), std::pair(1.75, 0.0));  // e times the stored speed
+  // Without a horizon the disc rebounds at once.
   EXPECT_EQ((law::rebound_of<true, false>(0.1, u, 0.0, 0.0, e, 0).velocity), 0.5);
 }
 
@@ -293,11 +296,11 @@ TEST(ContactLaw, APairThatWasPartingMayComeBackWithETimesItsVelocity)
   EXPECT_EQ(rebound(0, 0), -0.5);
   EXPECT_EQ(rebound(-0.1, 19), -0.5);
   EXPECT_EQ(rebound(-0.1, 21), 0);   // below parting_error times the load
-  EXPECT_EQ(rebound(0.1, 0), -0.5);  // more than its gap would allow, -0.2
+  EXPECT_EQ(rebound(0.1, 0), -0.5);  // larger than its gap would allow, -0.2
   EXPECT_EQ(rebound(1, 0), -2);      // -gap/horizon
 }
 
-/// Bits of the two motions after an impact.
+/// Numbers of the two motions after an impact.
 std::vector<double> after(TwoDiscs s, Effects effects, double friction, double restitution)
 {
   s.friction = friction;

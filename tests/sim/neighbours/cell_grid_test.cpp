@@ -6,7 +6,7 @@
 namespace grseg {
 namespace {
 
-/// `count` bodies on a lattice of spacing 1, ten high.
+/// Positions of `count` bodies on a lattice of spacing 1, ten bodies high.
 std::vector<Vec2> lattice(int count)
 {
   std::vector<Vec2> position;

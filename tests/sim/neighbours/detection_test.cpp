@@ -35,8 +35,8 @@ Random random_numbers()
   return {gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free};
 }
 
-/// Discs of several sizes on a jittered lattice above a row of beads, in random motion; every
-/// `flying`-th one shoots away.
+/// Discs of several sizes on a disordered lattice above a row of beads, in random motion; every
+/// `flying`-th disc moves away fast.
 Bed bed_of(double length, double height, bool periodic, std::size_t flying)
 {
   const auto random = random_numbers();
@@ -75,7 +75,7 @@ Simulation simulation_of(const Bed& bed)
 
 using Gaps = std::map<std::pair<int, int>, double>;
 
-/// The gap of grain i and grain or wall j.
+/// Gap between grain i and grain or wall j.
 double gap_of(const World& world, const std::vector<Vec2>& position, int i, int j)
 {
   const auto a = static_cast<std::size_t>(i);
@@ -91,8 +91,8 @@ double gap_of(const World& world, const std::vector<Vec2>& position, int i, int 
   return apart.norm() - radius - world.grains.radius[b];
 }
 
-/// Gaps up to `limit` at `position`, of all pairs that do not lie too far apart along x to be worth
-/// the time; named as in a frame.
+/// Gaps up to `limit` at `position`, of all pairs that are not too far apart along x; grains are
+/// named as in a frame.
 Gaps gaps_by_brute_force(const World& world, const std::vector<Vec2>& position, double limit)
 {
   Gaps gaps;
@@ -112,7 +112,7 @@ Gaps gaps_by_brute_force(const World& world, const std::vector<Vec2>& position, 
     along.push_back({world.box.periodic_x ? x - length * std::floor(x / length) : x, g});
   }
   std::sort(along.begin(), along.end());
-  if (world.box.periodic_x)  // once more, behind
+  if (world.box.periodic_x)  // once more, shifted by a period
     for (std::size_t n = 0; n < position.size() && along[n].first <= reach; ++n)
       along.push_back({along[n].first + length, along[n].second});
   for (std::size_t n = 0; n < along.size(); ++n)
@@ -127,7 +127,7 @@ Gaps gaps_by_brute_force(const World& world, const std::vector<Vec2>& position, 
   return gaps;
 }
 
-/// Runs the bed and compares each frame's contacts with those of all pairs.
+/// Runs the bed and compares the contacts of each frame with those found among all pairs.
 void expect_all_contacts(const Bed& bed, int steps)
 {
   auto simulation = simulation_of(bed);
@@ -220,7 +220,7 @@ TEST(Detection, FindsTheContactsOfAGiantWithMoreNeighboursThanThereAreColours)
   expect_all_contacts(bed, 40);
 }
 
-// Beds of more than one strip.
+// Tests with beds of more than one strip.
 
 TEST(Detection, FindsTheContactsOfAWideBed)
 {
@@ -270,14 +270,14 @@ TEST(Detection, AnyNumberOfThreadsGivesTheSameBytes)
 
 // --- Blocks, byte by byte ---
 
-/// A list, the state it sorted, and what the step asks for.
+/// A pair list, the state for which it was sorted, and the request of the step.
 struct Prepared {
   GrainState state;
   PairList list;
   std::vector<Wall> walls;
   DetectionRule rule;
 
-  /// Grains are larger than in the bed; by 15 % and most touch.
+  /// Grains are larger than in the bed; with 15 %, most touch.
   explicit Prepared(const Bed& bed, double growth = 1.15)
       : state(make_state(bed.world.grains, bed.position)),
         list(bed.world.walls, bed.world.box, growth * 0.55, 0.3),
@@ -355,14 +355,14 @@ TEST_P(DetectionOn, GivesTheBytesOfTheBestInstructionSet)
   }
 }
 
-/// A listed pair in the words of contact_law.hpp.
+/// A listed pair with the quantities of contact_law.hpp.
 struct PairInWords {
   bool acts;
   double separation, gap, load, remembered;
   Contact contact;
 };
 
-/// The law's own order of operations, so that bits can be compared.
+/// Computed in the law's own order of operations, so that bits can be compared.
 PairInWords in_words(const Prepared& p, const Pairs::Class& c, std::size_t k)
 {
   const auto& pairs = p.list.pairs();
@@ -426,13 +426,13 @@ Bits bits_of(const StripContacts& contacts, std::size_t block, std::size_t lane,
   return bits;
 }
 
-/// How many pairs of each kind a comparison has seen.
+/// Number of pairs of each kind in a comparison.
 struct Seen {
   std::size_t acting = 0, idle = 0, apart = 0, newcomers = 0, rebounding = 0;
-  std::size_t pressed_rebounding = 0, pressed_stopped = 0;  // under a load, and approaching
+  std::size_t pressed_rebounding = 0, pressed_stopped = 0;  // pairs under a load, and approaching
 };
 
-/// Compares what detection makes of a bed with what the words say of every listed pair.
+/// Compares the result of detection for a bed with the direct computation for every listed pair.
 void expect_the_law_in_words(const Prepared& p, Seen& seen)
 {
   const bool with_memory = p.rule.horizon > 0;
@@ -505,7 +505,7 @@ TEST_P(DetectionOn, PairsStillApartAreSlowedDownAsTheLawInWordsSaysToTheLastBit)
     for (std::size_t b = 0; b < then.size(); ++b)
       then[b] += p.rule.horizon * Vec2(p.state.motion[b].vx, p.state.motion[b].vy);
     p.rule.ahead = then;
-    // Newcomers, pairs slowed down in the step before, and pairs that have borne a load for long.
+    // New pairs, pairs that were slowed down in the step before, and pairs that have had a load for long.
     for (std::size_t k = 0; k < p.list.pairs().size(); ++k) {
       if (k % 3 != 2) p.list.memories()[k] = {};
       if (k % 3 == 1) p.list.memories()[k].approach = 0.1 * static_cast<double>(k % 7);
@@ -569,7 +569,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
       EXPECT_EQ(impulse.n, kept[b].impulse_n[lane]);
       EXPECT_EQ(impulse.t, kept[b].impulse_t[lane]);
     }
-  // Pairs must now overlap to act: fewer do, and only these keep what they had.
+  // Pairs must now overlap to act: fewer do, and only these keep their impulses.
   const auto before = contacts.origins;
   const auto size = contacts.size;
   p.rule.margin = -0.02;

@@ -15,7 +15,7 @@ namespace {
 
 using Named = std::set<std::pair<int, int>>;
 
-/// Grains at rest as the list wants them, and where each is now.
+/// Grains at rest in the form that the list needs, and their current positions.
 struct Listed {
   GrainState state;
   PairList list;
@@ -50,7 +50,7 @@ struct Listed {
     double shift, reach;
     std::size_t entry;
   };
-  /// Names grains by their rows, and walls from -1 down.
+  /// Pairs of the list; grains are named by their rows, and walls from -1 down.
   std::vector<Pair> pairs() const
   {
     std::vector<Pair> found;
@@ -64,7 +64,7 @@ struct Listed {
   }
 };
 
-/// Discs of two sizes scattered over a strip, 40 % of its area.
+/// Discs of two sizes scattered over a strip; they cover 40 % of its area.
 struct Scattered {
   World world;
   std::vector<Vec2> position;
@@ -83,7 +83,7 @@ struct Scattered {
   }
   ~Scattered() { gsl_rng_free(random); }
 
-  /// The list holds what touches, and something does.
+  /// Expects that the list contains all touching pairs, and that some pairs touch.
   void expect_all_pairs(const Listed& list) const
   {
     const auto expected = touching_by_brute_force();
@@ -188,7 +188,7 @@ TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
   for (const auto& pair : list.pairs())
     list.list.memories()[pair.entry] =
         pair.i == 0 ? Pairs::Memory{3, -1, 0, 0} : Pairs::Memory{4, 1, 0, 0};
-  position[2].x() = 5;  // the second pair ends
+  position[2].x() = 5;  // the contact of the second pair ends
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 1u);
   const auto impulse = list.list.memories()[list.pairs()[0].entry];
@@ -198,7 +198,7 @@ TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
 
 TEST(PairList, EveryPairOfABedKeepsItsOwnImpulseThroughARenewal)
 {
-  // Every pair of a full bed, across the period and at a wall too, keeps its own impulse.
+  // Every pair of a full bed, also across the period and at a wall, keeps its own impulse.
   World world;
   std::vector<Vec2> position;
   for (int row = 0; row < 12; ++row)
@@ -244,8 +244,7 @@ TEST(PairList, HoldsGrainsNearAWallAndNeedsANewListWhenAnotherComesNear)
 
 TEST(PairList, LayersThatSlideOverEachOtherNeedANewList)
 {
-  // d_max + skin = 1.2: y = 0 and y = 1.25 lie in neighbouring bands, each of which moves as a
-  // block.
+  // d_max + skin = 1.2: y = 0 and y = 1.25 are in neighbouring bands, each of which moves as a whole.
   World world;
   std::vector<Vec2> position;
   for (const double y : {0.0, 1.25})
@@ -278,8 +277,8 @@ TEST(PairList, HoldsEveryPairOnceInACellOfTwoColumns)
   EXPECT_EQ(seen, (std::set<std::pair<int, int>>{{0, 1}, {0, 2}, {1, 2}}));
 }
 
-/// Whether the list of two discs of diameter 1 with skin 0.2 is still complete after the second has
-/// gone from `from` to `to`; the first stays at (0, 0).
+/// True if the list of two discs of diameter 1 with skin 0.2 is still complete after the second
+/// disc has moved from `from` to `to`; the first one stays at (0, 0).
 bool complete_after(const Vec2& from, const Vec2& to, double margin = 0)
 {
   World world;
@@ -300,7 +299,8 @@ TEST(PairList, HoldsPairsWithinItsMargin)
 
 TEST(PairList, GrainsOfDistantBandsNeedANewListWhenTheyCouldMeet)
 {
-  // Bands are 1.2 high: 4 is in the fourth, and may be 1.2 + 0.2 closer for all the list knows.
+  // Bands are 1.2 high: 4 is in the fourth band, and may be nearer by 1.2 + 0.2 without the list's
+  // knowledge.
   EXPECT_TRUE(complete_after({0, 4}, {0, 2.7}));
   EXPECT_FALSE(complete_after({0, 4}, {0, 2.5}));
   EXPECT_TRUE(complete_after({0, 4}, {0, 50}));

@@ -200,7 +200,7 @@ TEST_F(CheckpointFile, ADamagedOneDoesNotReplaceTheOneBefore)
   write_checkpoint(path, written);
   fs::resize_file(path, 1000);
   EXPECT_EQ(complaint(), path + ": is not a checkpoint, or is truncated or damaged; " + previous +
-                             " is the checkpoint before it");
+                             " is the previous checkpoint");
   written.state.steps_done = 51;
   write_checkpoint(path, written);
   EXPECT_EQ(read_checkpoint(path).state.steps_done, 51);
@@ -214,8 +214,7 @@ TEST_F(CheckpointFile, WhereItIsMissingTheOneBeforeIsNamed)
     read_checkpoint(path);
     FAIL();
   } catch (const UsageError& missing) {
-    EXPECT_EQ(missing.what(),
-              path + ": no such file; " + previous + " is the checkpoint before it");
+    EXPECT_EQ(missing.what(), path + ": no such file; " + previous + " is the previous checkpoint");
   }
 }
 
@@ -226,7 +225,7 @@ TEST(PreviousCheckpoint, IsNamedBeforeTheExtension)
   EXPECT_EQ(previous_of("../run.h5.chk"), "../run.h5_prev.chk");
 }
 
-/// Forged with a right digest: what is changed, and what is then said of it.
+/// A forged checkpoint with a matching digest: the change, and the expected message.
 struct Forgery {
   std::string complaint;
   std::function<void(Checkpoint&)> forge;
@@ -244,8 +243,8 @@ TEST_P(ForgedCheckpoint, IsRefusedByItsEntry)
   const auto expected = fmt::format(fmt::runtime(GetParam().complaint), fmt::arg("grains", grains),
                                     fmt::arg("fewer", grains - 1));
   EXPECT_EQ(complaint(), path + ": " + expected +
-                             ": this was not written by grseg-sim, or is damaged; use an older "
-                             "checkpoint");
+                             ": the file was not written by grseg-sim, or is damaged; use an "
+                             "older checkpoint");
 }
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -275,7 +274,7 @@ INSTANTIATE_TEST_SUITE_P(
         Forgery{"/grains/radius, entry 0, is not a positive number",
                 [](Checkpoint& c) { c.grains.radius[0] = 0; }},
         Forgery{
-            "/grains/radius, entry 0, is larger than the diameter of large grains and base grains",
+            "/grains/radius, entry 0, is larger than the diameters of large grains and base grains",
             [](Checkpoint& c) { c.grains.radius[0] = 1e6; }},
         Forgery{"/grains/mass, entry 1, is not a positive number",
                 [](Checkpoint& c) { c.grains.mass[1] = -1; }},
@@ -291,13 +290,13 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { c.deposited_height = infinite; }},
         Forgery{"/state/position, entry 4, is not a finite number",
                 [](Checkpoint& c) { c.state.position[4].y() = no_number; }},
-        Forgery{"/state/position, entry 4, is too far away",
+        Forgery{"/state/position, entry 4, is farther than 1e12 d_S from the origin",
                 [](Checkpoint& c) { c.state.position[4].x() = 1e300; }},
         Forgery{"/state/velocity, entry 0, is not a finite number",
                 [](Checkpoint& c) { c.state.velocity[0].x() = infinite; }},
         Forgery{"/state/rim_speed, entry 0, is not a finite number",
                 [](Checkpoint& c) { c.state.rim_speed[0] = no_number; }},
-        Forgery{"/state/image, entry 0, is not a number of periods",
+        Forgery{"/state/image, entry 0, is not a number of periods from -1e9 to 1e9",
                 [](Checkpoint& c) { c.state.image[0] = std::numeric_limits<int>::min(); }},
         Forgery{"/state/pairs/i, entry 0, is not a grain",
                 [](Checkpoint& c) { c.state.pairs.i[0] = 4'000'000'000; }},
@@ -309,9 +308,9 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Checkpoint& c) { c.state.pairs.skin = 0; }},
         Forgery{"/state/pairs/skin is larger than a large grain",
                 [](Checkpoint& c) { c.state.pairs.skin = 1e300; }},
-        Forgery{"/state/pairs/renewals is not a number of lists",
+        Forgery{"/state/pairs/renewals is too large for a number of pair lists",
                 [](Checkpoint& c) { c.state.pairs.renewals = std::uint64_t{1} << 63; }},
-        Forgery{"/trajectory/frames is not a number of frames",
+        Forgery{"/trajectory/frames is too large for a number of frames",
                 [](Checkpoint& c) { c.trajectory.frames = std::uint64_t{1} << 63; }},
         Forgery{"/trajectory/begin is not a finite number",
                 [](Checkpoint& c) { c.trajectory.begin = no_number; }},
@@ -327,7 +326,7 @@ TEST_F(CheckpointFile, ASceneThatIsNoneIsRefused)
   fs::remove(path);
   written.scene = "phi-large = 7\n";
   write_checkpoint(path, written);
-  EXPECT_EQ(complaint().rfind(path + ": /scene is not one (", 0), 0u) << complaint();
+  EXPECT_EQ(complaint().rfind(path + ": /scene is not a scene (", 0), 0u) << complaint();
 }
 
 TEST_F(CheckpointFile, GrainsInOnePlaceAreRefused)
@@ -373,7 +372,7 @@ TEST_F(CheckpointFile, ASizeThatTheFileCannotHoldIsRefusedBeforeMemoryIsTaken)
 
 TEST_F(CheckpointFile, OneThatCannotBeWrittenLeavesTheOldOneWhole)
 {
-  fs::create_directory(path + ".part");  // in the way of the new one
+  fs::create_directory(path + ".part");  // occupies the name of the new file
   EXPECT_THROW(write_checkpoint(path, written), RunError);
   fs::remove(path + ".part");
   EXPECT_EQ(complaint(), "no complaint");

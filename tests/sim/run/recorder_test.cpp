@@ -37,7 +37,7 @@ class RecorderFile : public testing::Test {
                          .string();
   void TearDown() override { std::filesystem::remove(path); }
   World world = world_of({{{0, 0.5}, 0.5}});
-  /// Records one step with this report; returns the file's value of `name`.
+  /// Records one step with this report; returns the value of `name` in the file.
   double record(const StepReport& report, const std::string& name)
   {
     Simulation simulation(world, {{0, 0.5}});
@@ -96,7 +96,7 @@ TEST_F(RecorderFile, WhatMovingBoundariesDoIsRecorded)
     recorder.write(frame, simulation);
     writer.close();
   }
-  // Struck without rebound it moves on with the base: force m v/h along v h.
+  // Hit without rebound, the disc moves on with the base: force m v/h along v h.
   const TrajectoryReader file(path);
   const double mass = world.grains.mass[0];
   EXPECT_NEAR(file.observable("work_of_boundaries")[0], mass * 4, 1e-12);

@@ -20,7 +20,7 @@ using small_chute::checkpoint_of;
 using small_chute::scene;
 using small_chute::tilted_gravity;
 
-/// The digest chained over every frame of `steps` steps.
+/// Digest chained over all frames of `steps` steps.
 std::uint64_t digest_of_steps(Simulation& simulation, int steps, std::uint64_t before = 0)
 {
   Frame<2> frame;
@@ -252,7 +252,7 @@ TEST(Restart, TheCommandLineWinsOverTheCheckpointAndTheRestStays)
   EXPECT_EQ(to_text(with_words(checkpoint, {})), checkpoint.scene);
 }
 
-TEST(Restart, AGivenAccuracySetsStepToleranceAndSweepsAnew)
+TEST(Restart, AGivenAccuracyReplacesStepToleranceAndSweeps)
 {
   Checkpoint checkpoint;
   checkpoint.scene = to_text(scene());
@@ -294,7 +294,7 @@ TEST(Restart, KeysOfTheBedCannotChange)
   }
 }
 
-// 70 d_S of 5 mm are 0.35000000000000003 m.
+// In floating point, 70 d_S of 5 mm are 0.35000000000000003 m.
 TEST(Restart, ALengthInOtherUnitsIsNoOtherBed)
 {
   const auto chute = scene({"--length", "70dS"});

@@ -9,7 +9,7 @@
 namespace grseg {
 namespace {
 
-/// The paper's bed of sixty layers of 5 mm, density 1 kg/m^2, at fifty sweeps per 0.2 ms.
+/// Staron & Phillips' bed: sixty layers of 5 mm, density 1 kg/m^2, with fifty sweeps per 0.2 ms.
 StiffnessInput paper_bed()
 {
   return {.sweeps = 50,

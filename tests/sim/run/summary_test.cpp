@@ -35,7 +35,7 @@ TEST(Summary, DoubtsOneDeepOverlapAmongManyShallowOnes)
   totals.largest_overlap = 0.24 * scene.small_diameter;
   EXPECT_FALSE(says(text_of(totals, scene), "doubt"));
   totals.largest_overlap = 0.26 * scene.small_diameter;
-  EXPECT_TRUE(says(text_of(totals, scene), "doubt      two grains"));
+  EXPECT_TRUE(says(text_of(totals, scene), "doubt      a grain overlapped another"));
 }
 
 TEST(Summary, CountsOneStepAsOne)
@@ -44,10 +44,10 @@ TEST(Summary, CountsOneStepAsOne)
   StepTotals totals;
   totals.missed = totals.divided = 1;
   EXPECT_TRUE(says(text_of(totals, scene), "doubt      1 step missed the tolerance"));
-  EXPECT_TRUE(says(text_of(totals, scene), "remark     1 step was taken in parts"));
+  EXPECT_TRUE(says(text_of(totals, scene), "remark     1 step was divided into parts"));
   totals.missed = totals.divided = 2;
   EXPECT_TRUE(says(text_of(totals, scene), "doubt      2 steps missed the tolerance"));
-  EXPECT_TRUE(says(text_of(totals, scene), "remark     2 steps were taken in parts"));
+  EXPECT_TRUE(says(text_of(totals, scene), "remark     2 steps were divided into parts"));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run of six frames that left its part behind, and a checkpoint from when there were three.
+/// A run of six frames whose partial file remained, and a checkpoint written when it had three frames.
 class CutBack : public testing::Test {
  protected:
   std::string part =
@@ -122,7 +122,7 @@ TEST_F(CutBack, APartWithFewerFramesThanTheCheckpointIsRefused)
 TEST_F(CutBack, APartOfAnotherSceneOrOfOtherGrainsIsRefused)
 {
   const auto own = checkpoint;
-  checkpoint.trajectory = {};  // before its first frame a run is known by its scene and grains only
+  checkpoint.trajectory = {};  // before its first frame: scene and grains
   checkpoint.scene += "slope = 21\n";
   expect_refusal();
   checkpoint.scene = own.scene;

@@ -22,7 +22,7 @@ Scene scene_from(Words words)
   return small_chute::paper_scene(words);
 }
 
-/// The base that `words` ask for: d_S is 5 mm and d_L 10 mm.
+/// Base for the command-line words; d_S is 5 mm and d_L 10 mm.
 Boundaries base_of(const Words& words)
 {
   const auto scene = scene_from(words);
@@ -37,7 +37,7 @@ std::vector<double> tops_of(const Boundaries& base)
   return tops;
 }
 
-/// Distances of neighbours along x, the one across the ends of the cell included, m.
+/// Distances of neighbouring beads along x, including the one across the ends of the cell, m.
 std::vector<double> spacings_of(const Boundaries& base, double length)
 {
   std::vector<double> spacings;
@@ -151,7 +151,8 @@ TEST(BaseRow, IsTheSameForTheSameSeedAndAnotherForAnother)
 
 TEST(BaseRow, LeavesTheGrainsThatFallOnItAsTheyAre)
 {
-  // So large that the first bed is as high as it should be: a second one has other grains.
+  // The bed is so large that its first filling has the required height: a second filling would have
+  // other grains.
   const Words size{"--depth", "24dS", "--length", "24dL"};
   auto irregular = size;
   irregular.insert(irregular.end(), {"--base-height-spread", "0.2dS"});
@@ -159,7 +160,7 @@ TEST(BaseRow, LeavesTheGrainsThatFallOnItAsTheyAre)
   EXPECT_EQ(a.world().grains.radius, b.world().grains.radius);
 }
 
-/// How many mobile grains lie deeper than the lowest bead's centre after a second of flow.
+/// Number of mobile grains below the lowest bead's centre after one second of flow.
 std::size_t fallen(const Words& words)
 {
   auto all = words;
@@ -196,7 +197,7 @@ TEST(BaseRow, HoldsItsGrainsInAFlowUpToTheWidestGapsThatItsKeysMayHave)
 
 TEST(BaseRow, ThatGrainsCouldFallThroughIsRefused)
 {
-  // The smallest grain is 0.96 d_S = 0.48 d_L: gaps of 0.43 d_L hold, those of 0.44 d_L do not.
+  // The smallest grain is 0.96 d_S = 0.48 d_L: gaps of 0.43 d_L retain it, gaps of 0.44 d_L do not.
   EXPECT_EQ(complaint_about({"--length", "28.6dL", "--base-spacing", "1.43dL"}), "");
   EXPECT_EQ(complaint_about({"--length", "28.8dL", "--base-spacing", "1.44dL"}), "base-spacing");
   EXPECT_EQ(complaint_about({"--length", "28.8dL", "--base-spacing", "1.44dL", "--spread", "0"}),
@@ -205,10 +206,10 @@ TEST(BaseRow, ThatGrainsCouldFallThroughIsRefused)
   EXPECT_EQ(complaint_about({"--base-spacing-spread", "0.88"}), "base-spacing-spread");
   EXPECT_EQ(complaint_about({"--base-diameter-spread", "0.86"}), "");
   EXPECT_EQ(complaint_about({"--base-diameter-spread", "0.88"}), "base-diameter-spread");
-  // Pythagoras: beads that touch, one lowered by h d_L, leave a gap of sqrt(1 + h^2) - 1 d_L.
+  // Pythagoras: two beads that touched have a gap of sqrt(1 + h^2) - 1 d_L if one is lowered by h d_L.
   EXPECT_EQ(complaint_about({"--base-height-spread", "1.02dL"}), "");
   EXPECT_EQ(complaint_about({"--base-height-spread", "1.04dL"}), "base-height-spread");
-  // Large grains alone need larger gaps.
+  // A bed of large grains only may have larger gaps.
   EXPECT_EQ(complaint_about({"--base-spacing", "1.44dL", "--phi-large", "1"}), "");
   EXPECT_EQ(complaint_about({"--base-spacing", "9dL"}), "base-spacing");
   EXPECT_EQ(complaint_about({"--base-diameter", "9dL"}), "base-diameter");

@@ -47,11 +47,11 @@ TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
 }
 
 struct Halves {
-  double large = 0, small = 0;      // grains
-  double large_below = 0;           // large grains among the lower half of all
+  double large = 0, small = 0;      // number of grains
+  double large_below = 0;           // number of large grains in the lower half of all grains
   double area_large = 0, area = 0;  // m^2
-  double height = 0;                // m, of the bed
-  double deviation = 0;             // of large_below over random mixtures of these grains
+  double height = 0;                // height of the bed, m
+  double deviation = 0;             // standard deviation of large_below over random mixtures
 };
 
 Halves halves_of(const char* initial, const char* seed)
@@ -98,7 +98,7 @@ TEST(Deposition, TakesTheSameGrainsHoweverTheyAreOrdered)
   }
 }
 
-/// Kinetic energy over m g d of a small grain, per grain, of a bed left flat for a second.
+/// Kinetic energy per grain, over m g d of a small grain, of a bed that stays level for a second.
 double trembling(const std::string& accuracy, const std::string& min_sweeps)
 {
   const auto scene = scene_from({"--depth", "40dS", "--length", "10dL", "--accuracy", accuracy});
@@ -120,7 +120,7 @@ double trembling(const std::string& accuracy, const std::string& min_sweeps)
 
 TEST(Deposition, ABedAtRestStaysAtRest)
 {
-  // Slower than gravity makes a grain in a step: (g h)^2/2 = 1.6e-4 g d_S at the step of draft.
+  // Slower than gravity accelerates a grain in one step: (g h)^2/2 = 1.6e-4 g d_S at the step of draft.
   for (const auto* accuracy : {"draft", "standard"})
     EXPECT_LT(trembling(accuracy, "8"), 1e-4) << accuracy;
 }
@@ -183,7 +183,7 @@ TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
 
 TEST(Deposition, BringsElasticGrainsToRestBySlowingThemDown)
 {
-  // Elastic discs without friction never rest by themselves.
+  // Elastic discs without friction never come to rest by themselves.
   const auto scene = scene_from({"--depth", "6dS", "--length", "8dL", "--friction", "0",
                                  "--restitution", "1", "--accuracy", "draft"});
   double from = 0;
@@ -214,9 +214,10 @@ TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
     deposit(scene_from({"--geometry", "column", "--lateral", "walls", "--column-width", "1dL"}));
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(),
-                 "the falling grains do not fit: the column has no room for one at a height of 0 "
-                 "m; choose a wider one or fewer grains");
+    EXPECT_STREQ(
+        error.what(),
+        "the falling grains do not fit: the column is too narrow for a grain at a height of "
+        "0 m; choose a wider one or fewer grains");
   }
 }
 

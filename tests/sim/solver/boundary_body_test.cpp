@@ -16,14 +16,14 @@ using namespace worlds;
 
 constexpr double pi = std::numbers::pi;
 
-/// Two boundary discs side by side, as one body, over a mobile one that rests on a floor.
+/// Two boundary discs side by side form one body, above a mobile disc that rests on a floor.
 struct UnderAPlate {
   std::vector<Disc> discs{{{0.5, 0.5}, 0.5}, {{0, 1.5}, 0.5, true}, {{1, 1.5}, 0.5, true}};
   World world = world_of(discs);
   BoundaryBody plate;
   UnderAPlate()
   {
-    const double lower = std::sqrt(0.75);  // the plate's discs touch the one below
+    const double lower = std::sqrt(0.75);  // the plate's discs touch the lower one
     discs[1].position.y() = discs[2].position.y() = 0.5 + lower;
     plate.begin = 1;
     plate.end = 3;

@@ -7,14 +7,14 @@
 
 #include <functional>
 
-/// An effect that a scene does not call for is left out of its kernels. Whole flows with and
-/// without it are the same to the last bit where its coefficient is the neutral one.
+/// Kernels leave out effects (docs/glossary.md) that a scene does not need. Whole flows computed
+/// with and without an effect are equal to the last bit if its coefficient is neutral.
 namespace grseg {
 namespace {
 
 using Change = std::function<void(World&)>;
 
-/// The small chute in motion, without spin, under other conditions.
+/// The small chute in motion, without spin, with changed conditions.
 Simulation chute_with(const Change& change, const std::vector<std::string>& words = {})
 {
   auto start = small_chute::bed(small_chute::scene(words));
@@ -28,7 +28,7 @@ Simulation chute_with(const Change& change, const std::vector<std::string>& word
   return simulation;
 }
 
-/// The digest of all frames of a flow.
+/// Digest of all frames of a flow.
 std::uint64_t flow(Simulation simulation)
 {
   std::uint64_t digest = 0;
@@ -65,7 +65,8 @@ TEST(Effects, AFlowWithoutRestitutionIsOneOfRestitutionZeroToTheLastBit)
   EXPECT_NE(flow(chute_with(inelastic)), flow(chute_with(make_general)));
 }
 
-// Without friction nothing begins to spin; with it no coefficient would keep a disc from spinning.
+// Without friction nothing begins to spin; with friction, no coefficient would prevent a disc from
+// spinning.
 TEST(Effects, AFlowWithoutRotationIsOneInWhichNothingSpinsToTheLastBit)
 {
   const Change unspun = [](World& w) { w.material.friction = 0, make_general(w); };
@@ -84,8 +85,8 @@ TEST(Effects, AFlowBetweenWallsIsOneWhosePairsAreShiftedByNothingToTheLastBit)
   EXPECT_NE(flow(chute_with(nothing, walls)), flow(chute_with(nothing, steep)));
 }
 
-// So faint that its square is 0, with which the solver's floor is too. Under the centred law, as
-// the speculative one asks whether a pair has been slowed down at all.
+// The gravity is so faint that its square is 0, and so is the solver's lower limit. The test uses
+// the centred law, because the speculative law checks whether a pair has been slowed down at all.
 TEST(Effects, AFlowWithoutGravityIsOneOfGravityBelowTheLastDigitToTheLastBit)
 {
   const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };

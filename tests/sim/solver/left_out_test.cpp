@@ -13,19 +13,18 @@
 #include <functional>
 #include <limits>
 
-/// What a scene does not call for leaves no work behind: instructions are counted, not timed, and
-/// numbers that only an effect needs are not even read. That it changes no bit either is shown by
-/// effects_test.cpp.
+/// Effects that a scene does not need cost nothing: instructions are counted, not timed, and numbers that
+/// only an effect needs are not even read. effects_test.cpp shows that results do not change in any bit.
 namespace grseg {
 namespace {
 
-// Additions, subtractions and multiplications of relax() in sim/contact/contact_law-inl.hpp, and of
-// the sums over what it changed, that stand behind `if constexpr`. Floating-point rules forbid a
-// compiler to leave one out or, without contraction, to join two, so the bounds hold for every
-// compiler. How it moves numbers about is its own affair: moves are not counted.
+// Numbers of additions, subtractions and multiplications in relax() in sim/contact/contact_law-inl.hpp, and
+// in the sums over its changes, that are behind `if constexpr`. Floating-point rules forbid a compiler to
+// leave one out or, without contraction, to merge two, so the bounds are valid for every compiler.
+// Compilers move numbers differently: moves are not counted.
 constexpr long of_friction = 17, of_rotation = 12, of_restitution = 1;
 
-/// Instructions that the sweep takes for two further blocks of eight contacts.
+/// Instructions of the sweep for two further blocks of eight contacts.
 Instructions of_two_blocks(Effects effects)
 {
   const auto sweep = choose_sweep(effects);
@@ -39,8 +38,8 @@ Instructions of_two_blocks(Effects effects)
   return {three.all - one.all, three.arithmetic - one.arithmetic};
 }
 
-/// The least number of vectors that make up a block. Without vectors a compiler may still pair
-/// numbers.
+/// Smallest number of vectors that make up a block. Without vector instructions a compiler may
+/// still pair numbers.
 long parts_of_a_block(const std::string& instruction_set)
 {
   if (instruction_set == "avx512") return 1;
@@ -100,8 +99,8 @@ void add_bits(Bits& bits, double x)
   bits.push_back(std::bit_cast<std::uint64_t>(x));
 }
 
-/// What three sweeps over the frozen problem make of velocities and normal impulses after `spoil`
-/// has been at its blocks and bodies.
+/// Velocities and normal impulses after three sweeps over the frozen problem, after `spoil` has
+/// changed its blocks and bodies.
 Bits swept(Effects effects, const std::function<void(ContactBlock&)>& spoil_block,
            const std::function<void(Motion&)>& spoil_body)
 {
@@ -150,7 +149,7 @@ TEST(NotEvenRead, IsWhatFrictionRotationAndRestitutionNeedInSweepsWithoutThem)
   use_instruction_set("");
 }
 
-/// Normals of the contacts of the small chute's bed, found after shifts have been spoilt or not.
+/// Normals of the contacts in the small chute's bed, found with or without spoilt shifts.
 Bits found_in_a_bed(bool periodic, bool spoilt)
 {
   const auto bed = small_chute::bed(small_chute::scene());
@@ -194,7 +193,7 @@ TEST(NotEvenRead, IsThePeriodWhereACellHasEnds)
 
 using Change = std::function<void(World&)>;
 
-/// The small chute in motion between walls, one sweep per step, under other conditions.
+/// The small chute in motion between walls, one sweep per step, with changed conditions.
 Simulation chute_with(const Change& change)
 {
   static const auto start = [] {
@@ -210,7 +209,7 @@ Simulation chute_with(const Change& change)
   for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(start.position(g));
   Simulation simulation(world, position);
   for (std::size_t g = 0; g < position.size(); ++g) simulation.set_velocity(g, start.velocity(g));
-  // The first step makes the list, the second finds all memory that it needs.
+  // The first step makes the list, the second one allocates all remaining memory.
   for (int k = 0; k < 2; ++k) simulation.advance();
   return simulation;
 }
@@ -228,7 +227,7 @@ class LeftOutOfAStep : public testing::Test {
   }
 };
 
-/// Blocks of eight contacts, at least.
+/// Lower bound of the number of blocks of eight contacts in a step.
 long blocks_of_a_step(const Change& change)
 {
   auto simulation = chute_with(change);
@@ -239,7 +238,7 @@ long blocks_of_a_step(const Change& change)
 
 TEST_F(LeftOutOfAStep, FrictionAndRestitutionLeaveNothingWhereTheirCoefficientIsZero)
 {
-  // Against coefficients so small that they do nothing but have to be seen to.
+  // Compared with coefficients so small that they have no effect but must be computed.
   const auto rough = [](double friction) -> Change {
     return [friction](World& w) { w.material.friction = friction; };
   };

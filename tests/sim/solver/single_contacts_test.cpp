@@ -12,14 +12,14 @@
 #include <bit>
 #include <limits>
 
-/// Sweeps in single precision, and what comes of them in double precision.
+/// Sweeps in single precision, and their results in double precision.
 namespace grseg {
 namespace {
 
 namespace law = HWY_NAMESPACE;
 
-/// The frozen problem with the entry that unused lanes act on. Contacts carry a load already, which
-/// the velocities do not contain yet.
+/// The frozen problem with the entry on which unused lanes act. Contacts already have a load, which
+/// the velocities do not include yet.
 FrozenProblem problem()
 {
   auto p = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
@@ -56,7 +56,7 @@ Bits bits_of(std::span<const BlockOf<float>> blocks, std::span<const MotionOf<fl
   return bits;
 }
 
-/// Relaxes contact by contact, in the order of blocks and lanes.
+/// Relaxes the contacts one by one, in the order of blocks and lanes.
 template <Effects with>
 void relax_one_by_one(std::span<BlockOf<float>> blocks, std::vector<MotionOf<float>>& motion)
 {
@@ -119,8 +119,8 @@ TEST(SinglePrecision, MeasuresAreThoseOfEveryContact)
   singles.take(std::array{packed.runs()}, p.motion, {}, 1);
   const auto found = choose_sweep<float>({})(singles.strips()[0], singles.motion().data(), 0.5F);
   const auto exact = choose_sweep({})(again.runs(), twice.motion.data(), 0.5);
-  // A rounding error of the fastest velocity in each of the ten relaxations that a body takes part
-  // in, over the largest change; sums of squares twice that.
+  // Bound: a rounding error of the fastest velocity in each of the ten relaxations of a body, over
+  // the largest change; sums of squares have twice that.
   constexpr double error = 1e-4;
   EXPECT_NEAR(found.largest, exact.largest, error * exact.largest);
   EXPECT_NEAR(found.sum_squares, exact.sum_squares, 2 * error * exact.sum_squares);
@@ -157,7 +157,7 @@ TEST(SinglePrecision, VelocitiesAreThoseOfDoublePrecisionUpToItsRounding)
                         std::abs(m.rim_speed - e.rim_speed)});
   }
   // A disc of diameter 2 has at most nine neighbours of diameter 1. Each relaxation rounds the
-  // velocities of its bodies once, and sweeps do not enlarge an error of them.
+  // velocities of its bodies once, and sweeps do not amplify these errors.
   constexpr double relaxations = 9 * sweeps;
   EXPECT_LT(largest, relaxations * std::numeric_limits<float>::epsilon() * fastest);
   EXPECT_GT(largest, 0);
@@ -168,8 +168,8 @@ TEST(SinglePrecision, MomentumAndSpinBalanceInDoublePrecision)
 {
   const auto start = problem().motion;
   const auto end = solved(Precision::mixed, {.tolerance = 0.1, .max_sweeps = 100});
-  std::vector<Vec2> momentum(end.motion.size(), Vec2::Zero());  // kg m/s, that contacts give
-  std::vector<double> spin(end.motion.size(), 0);               // kg m/s, mass times rim speed
+  std::vector<Vec2> momentum(end.motion.size(), Vec2::Zero());  // momentum from contacts, kg m/s
+  std::vector<double> spin(end.motion.size(), 0);               // mass times rim speed, kg m/s
   double largest = 0;
   for (const auto& c : end.contacts) {
     const auto i = static_cast<std::size_t>(c.i), j = static_cast<std::size_t>(c.j);
@@ -183,7 +183,7 @@ TEST(SinglePrecision, MomentumAndSpinBalanceInDoublePrecision)
   for (std::size_t b = 0; b < end.motion.size(); ++b) {
     const auto &m = end.motion[b], &s = start[b];
     if (m.inverse_mass == 0) continue;
-    // Round-off of velocities of some m/s, as in double precision throughout.
+    // Round-off of velocities of some m/s, as in a computation in double precision.
     EXPECT_NEAR((m.vx - s.vx) / m.inverse_mass, momentum[b].x(),
                 1e-12 * (largest + 1 / m.inverse_mass));
     EXPECT_NEAR((m.vy - s.vy) / m.inverse_mass, momentum[b].y(),
@@ -211,9 +211,9 @@ TEST(SinglePrecision, NoContactPullsOrRubsHarderThanCoulombAllows)
 
 TEST(SinglePrecision, AContactThatPartsLosesItsLoadToTheLastDigit)
 {
-  // Loads with digits that single precision does not have.
+  // Loads with digits that single precision cannot represent.
   for (const double load : {0.1, 1.0 / 3, 0.7}) {
-    std::vector<Motion> motion{{load, 0, 0, 1}, {-load, 0, 0, 1}};  // as if it bore twice that
+    std::vector<Motion> motion{{load, 0, 0, 1}, {-load, 0, 0, 1}};  // as if it had twice the load
     Contact c{};
     c.nx = 1, c.kappa = 1;
     c.mass_n = 0.5, c.mass_t = c.mass_n / 3;

@@ -25,8 +25,8 @@ TEST(Solver, AVelocityFarBelowTheFloorNeedsNoSecondSweep)
 
 TEST(Solver, MakesTheLeastNumberOfSweepsUnlessOneChangesNothing)
 {
-  // A column of ten discs on a floor, from nothing; the floor alone carries the lowest from the
-  // first sweep on.
+  // A column of ten discs on a floor, without initial impulses; from the first sweep on, the floor
+  // carries the lowest disc only.
   const auto sweeps = [](int discs, int at_least) {
     std::vector<Motion> motion(static_cast<std::size_t>(discs), Motion{0, -1, 0, 1});
     motion.push_back({});
@@ -48,8 +48,8 @@ TEST(Solver, MakesTheLeastNumberOfSweepsUnlessOneChangesNothing)
 
 TEST(Solver, ComparesChangesWithNoMoreThanTheRangeAllows)
 {
-  // A disc at speed 1 that a wall stops, and one at speed 1e-3 between two that hit it in turn: the
-  // mean of W p is that of the fast one.
+  // A wall stops a disc of speed 1, and two others hit a disc of speed 1e-3 in turn: the mean of W
+  // p is dominated by the fast disc.
   const auto residual = [](const ReferenceRange& range) {
     std::vector<Motion> motion{{0, -1, 0, 1}, {1e-3, 0, 0, 1}, {-1e-3, 0, 0, 1}, {}};
     Contact stop{};
@@ -67,7 +67,7 @@ TEST(Solver, ComparesChangesWithNoMoreThanTheRangeAllows)
   EXPECT_NEAR(residual({0, 0.01}), 1 / 0.01, 1e-9);
 }
 
-/// Rows of ten touching discs, a strip each, of which the first disc of the first row is hit.
+/// Rows of ten touching discs, one strip each; the first disc of the first row is hit.
 struct Rows {
   static constexpr std::size_t discs = 10;
   std::vector<Motion> motion;
@@ -112,8 +112,8 @@ TEST(Solver, AStripThatNeedsManySweepsDoesNotCostOthersMore)
   for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_EQ(shared.motion[k].vx, many.motion[k].vx);
 }
 
-/// Rows of ten discs, a strip each, that touch one another along rows and columns and are hit by chance;
-/// an even number of rows closes to a ring.
+/// Rows of ten discs, one strip each, that touch along rows and columns and are hit at random; an even
+/// number of rows closes to a ring.
 struct Net {
   static constexpr std::size_t discs = 10;
   std::vector<Motion> motion;
@@ -160,8 +160,8 @@ struct Net {
           all.insert(all.end(), lanes.begin(), lanes.end());
     return all;
   }
-  /// All strips one after the other, those of even number first, and then the extrapolation, which
-  /// looks at changes from the eighth sweep on.
+  /// Sweeps all strips one after the other, even numbers first, then extrapolates; the
+  /// extrapolation uses changes from the eighth sweep on.
   void sweep_round_after_round(int sweeps, bool acceleration)
   {
     const auto sweep = choose_sweep({});
@@ -227,7 +227,7 @@ TEST(Solver, StripsThatGoAheadInSinglePrecisionGiveTheSameWithAnyNumberOfThreads
 
 TEST(Solver, WithoutGravityTheSweepThatOpensTheLastContactIsFollowedByAnother)
 {
-  // Two discs that part, with an impulse between them that was right before.
+  // Two discs that part, with an impulse between them that was correct before.
   std::vector<Motion> motion{{1, 0, 0, 1}, {-1, 0, 0, 1}};
   Contact c{};
   c.nx = c.kappa = c.impulse_n = 1;
@@ -243,8 +243,8 @@ TEST(Solver, WithoutGravityTheSweepThatOpensTheLastContactIsFollowedByAnother)
 
 TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
 {
-  // 4000 discs that rest on a floor, their impulses known, beside a row of 10 touching discs of
-  // which the first is hit: without restitution all ten end with a tenth of its speed.
+  // 4000 discs rest on a floor with known impulses, beside a row of 10 touching discs whose first
+  // disc is hit: without restitution all ten end with a tenth of its speed.
   const int row = 10, settled = 4000;
   std::vector<Motion> motion;
   std::vector<Contact> contacts;
@@ -268,7 +268,7 @@ TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
   for (int k = 0; k < row; ++k) EXPECT_NEAR(motion[static_cast<std::size_t>(k)].vx, 0.1, 0.05);
 }
 
-/// n discs in a column on the ground, at rest but for a step's gravity.
+/// n discs in a column on the ground, at rest except for gravity of one step.
 struct Column {
   std::vector<Motion> motion;
   std::vector<Contact> contacts;
@@ -295,8 +295,8 @@ struct Column {
 
 TEST(Solver, AccelerationFindsTheSameSolutionWithAFifthOfTheSweeps)
 {
-  // Plain sweeps contract the error by cos^2(pi/2n), so they need some n^2 of them; extrapolated
-  // ones some n. Odd and even numbers of bodies end differently in vector registers.
+  // Plain sweeps contract the error by cos^2(pi/2n), so about n^2 sweeps are needed; with
+  // extrapolation about n. Odd and even numbers of bodies end differently in vector registers.
   for (const int n : {40, 41, 42, 43}) {
     Column plain(n), accelerated(n);
     const int sweeps = plain.sweeps(false);

@@ -30,8 +30,8 @@ std::vector<std::uint64_t> bits_of(const std::vector<Contact>& contacts)
   return bits;
 }
 
-/// The first `count` contacts of the frozen problem; the last mobile body is left out and stands
-/// for a wall, which some grains touch.
+/// The first `count` contacts of the frozen problem; the last mobile body is replaced by a wall,
+/// which some grains touch.
 FrozenProblem problem(std::size_t count = 5459)
 {
   static const auto read = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
@@ -55,7 +55,7 @@ FrozenProblem problem(std::size_t count = 5459)
 
 constexpr int sweeps = 4;
 
-/// Sweeps, and the last one's findings as bits behind those of bodies and contacts.
+/// Results of sweeps as bits: bodies, contacts, and the report of the last sweep.
 std::vector<std::uint64_t> swept(FrozenProblem p, Effects effects)
 {
   p.motion.emplace_back();
@@ -73,8 +73,8 @@ std::vector<std::uint64_t> swept(FrozenProblem p, Effects effects)
   return bits;
 }
 
-/// The same contact by contact in the order of the colours, each sum over the contacts of one lane
-/// first.
+/// The same results, computed contact by contact in the order of the colours; each sum is first
+/// over the contacts of one lane.
 std::vector<std::uint64_t> relaxed(FrozenProblem p, Effects effects)
 {
   const auto relax_alone = choose_relax(effects);
@@ -167,7 +167,7 @@ TEST_P(SweepOn, AnEffectLeftOutEqualsItsNeutralCoefficientToTheLastBit)
   auto inelastic = problem();
   for (auto& c : inelastic.contacts) c.rebound = 0;
   EXPECT_EQ(swept(inelastic, {}), swept(problem(), {.restitution = false}));
-  // Without rotation: lever arms 0, so that friction turns nothing and rim speeds are not felt.
+  // Without rotation lever arms are 0, so friction turns nothing and rim speeds have no effect.
   auto pointlike = problem();
   for (auto& c : pointlike.contacts) c.kappa = 0;
   EXPECT_EQ(swept(pointlike, {}), swept(problem(), {.rotation = false}));

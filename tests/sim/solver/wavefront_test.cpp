@@ -10,7 +10,8 @@
 namespace grseg {
 namespace {
 
-/// Strips whose numbers come from those of their neighbours, in a way that no other order gives.
+/// Strips whose numbers are computed from those of their neighbours, so that any other order gives
+/// different numbers.
 struct Ring {
   std::vector<std::uint64_t> number, closed;
 
@@ -60,8 +61,9 @@ TEST(Wavefront, EveryStripSeesWhatRoundAfterRoundShowsIt)
 
 TEST(Wavefront, AStripIsWorkedOnAgainWhileTheCacheStillHoldsIt)
 {
-  // A strip and its neighbours must be closed: it is worked on again when the one after next has been
-  // worked on, two strips later. Where the ring closes, the last strips wait for the first.
+  // A strip can be swept again when it and its neighbours are closed, i.e. after the strip after next
+  // has been swept, two strips later. Where the ring closes, the last strips wait for the first.
+  // wait for the first.
   constexpr std::size_t strips = 100;
   constexpr int rounds = 4;
   std::vector<std::size_t> order;

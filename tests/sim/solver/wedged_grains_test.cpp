@@ -11,7 +11,7 @@ namespace {
 
 using namespace worlds;
 
-/// A contact of a disc whose other body lies at an angle, from the downward vertical.
+/// A contact of a disc whose other body is in the direction `angle`, measured from the downward vertical.
 Contact at_angle(double angle)
 {
   Contact contact{};
@@ -23,19 +23,19 @@ Contact at_angle(double angle)
 
 TEST(WedgedGrains, FrictionLocksADiscWhereItsConesHoldTheLineBetweenItsContacts)
 {
-  // The line between the contacts is level and makes an angle of 90 degrees - a with either normal.
+  // The line between the contacts is horizontal and makes an angle of 90 degrees - a with both normals.
   const double a = 1.2, least = 1 / std::tan(a);
   EXPECT_TRUE(locks(at_angle(a), at_angle(-a), 1.001 * least));
   EXPECT_FALSE(locks(at_angle(a), at_angle(-a), 0.999 * least));
   EXPECT_FALSE(locks(at_angle(a), at_angle(a / 2), 0.999 * least));
 }
 
-/// A disc of radius 1/2 just above the gap between two fixed ones of radius 1, `half` apart from the
-/// middle; it falls at speed 1.
+/// A disc of radius 1/2 just above the gap between two fixed discs of radius 1, each `half` away
+/// from the middle; it falls at speed 1.
 struct OverAGap {
   std::vector<Disc> discs;
   World world;
-  double sine;  // of the angle of the line of centres to the level
+  double sine;  // sine of the angle between the line of centres and the horizontal
   explicit OverAGap(double half)
       : discs{{{-half, 0}, 1, true}, {{half, 0}, 1, true}, {{0, 0}, 0.5}},
         sine(std::sqrt(1.5 * 1.5 - half * half) / 1.5)
@@ -49,8 +49,8 @@ struct OverAGap {
 
 TEST(WedgedGrains, ADiscThatFrictionLocksStopsInOneStepWithForcesThatItsMomentumMakes)
 {
-  // tan of the angle of the line to the normals: 0.32, below mu = 0.5. Two forces along the normals
-  // alone would be m v/(2 sine) each; friction takes a part of it.
+  // The tan of the angle between line and normals is 0.32, below mu = 0.5. Two forces along the
+  // normals alone would be m v/(2 sine) each; friction carries a part.
   const OverAGap scene(1.43);
   Simulation simulation(scene.world, positions_of(scene.discs));
   simulation.set_velocity(2, {0, -1});
@@ -90,7 +90,7 @@ TEST(WedgedGrains, BetweenBodiesThatPartADiscBearsNothing)
 
 TEST(WedgedGrains, ADiscThatFrictionCannotLockRebounds)
 {
-  // tan of the angle is 0.97.
+  // The tan of the angle is 0.97.
   const OverAGap scene(1.08);
   Simulation simulation(scene.world, positions_of(scene.discs));
   simulation.set_velocity(2, {0, -1});

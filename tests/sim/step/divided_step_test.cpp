@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-/// Steps in which grains would approach each other by more than half a diameter are taken in parts.
+/// Steps in which grains would approach each other by more than half a diameter are divided into parts.
 namespace grseg {
 namespace {
 
@@ -18,8 +18,8 @@ using worlds::Disc;
 using worlds::positions_of;
 using worlds::world_of;
 
-/// Two equal discs of diameter 1 on a line, the first moving at `diameters` per step towards the
-/// other, which it meets head-on.
+/// Two equal discs of diameter 1 on a line; the first moves at `diameters` per step towards the
+/// second and hits it head-on.
 struct Collision {
   World world;
   Simulation simulation;
@@ -53,7 +53,7 @@ TEST(DividedStep, DiscsThatApproachByDiametersPerStepDoNotPassEachOther)
       const Vec2 a = two.simulation.velocity(0), b = two.simulation.velocity(1);
       const double speed = diameters / two.world.step;
       EXPECT_GT(two.simulation.position(1).x() - two.simulation.position(0).x(), 1) << diameters;
-      // Newton's law and momentum: u' = -e u, and the sum of velocities stays.
+      // Newton's law and momentum conservation: u' = -e u, and the sum of velocities is constant.
       EXPECT_NEAR(b.x() - a.x(), 0.25 * speed, 1e-12 * speed) << diameters;
       EXPECT_NEAR(a.x() + b.x(), speed, 1e-12 * speed) << diameters;
     }
@@ -85,7 +85,7 @@ TEST(DividedStep, IsTheSameAsStepsOfThatLength)
   EXPECT_GT(divided, 0);
 }
 
-/// Shoots the n-th mobile grain into the bed.
+/// Gives the n-th mobile grain a high velocity into the bed.
 void shoot(Simulation& bed, int n)
 {
   const auto& fixed = bed.world().grains.fixed;
@@ -124,7 +124,8 @@ TEST(DividedStep, ARestartBetweenDividedStepsChangesNoBit)
   }
 }
 
-/// N, m (v - v_before)/h of what the bullet strikes, of velocities to their last digit.
+/// Force m (v - v_before)/h on grains that the projectile hits, in units of the last digit of the
+/// velocities, N.
 double last_digits_of_a_force(const Simulation& bed)
 {
   const auto& mass = bed.world().grains.mass;
@@ -162,8 +163,8 @@ TEST(DividedStep, AFrameIsItsLastPartAndForcesBalanceInIt)
 
 TEST(DividedStep, ABedAtRestKnowsItsLoadInAPartOfAStep)
 {
-  // A column of five on a floor, whose loads few sweeps have found over many steps, and far from it
-  // a disc that is shot at a fixed one.
+  // A column of five discs on a floor, whose loads few sweeps have found over many steps; and far
+  // away, a disc that is shot at a fixed one.
   std::vector<Disc> discs{{{-20, 3}, 0.5, true}, {{-30, 3}, 0.5}};
   for (int k = 0; k < 5; ++k) discs.push_back({{0, 0.5 + k}, 0.5});
   auto world = world_of(discs);
@@ -176,7 +177,7 @@ TEST(DividedStep, ABedAtRestKnowsItsLoadInAPartOfAStep)
     double largest = 0;
     for (std::size_t k = 2; k < discs.size(); ++k)
       largest = std::max(largest, simulation.velocity(k).norm());
-    return largest / 0.01;  // of g h
+    return largest / 0.01;  // in units of g h
   };
   for (int step = 0; step < 500; ++step) {
     simulation.set_velocity(1, {0, 0});

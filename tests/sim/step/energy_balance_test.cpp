@@ -9,7 +9,7 @@ namespace {
 
 using worlds::Disc;
 
-/// Two discs of which the upper one, spinning, hits the lower one, and a floor below.
+/// Two discs above a floor; the upper one spins and hits the lower one.
 struct Impact {
   World world = worlds::world_of({{{0, 0.4999}, 0.5}, {{0.3, 1.45}, 0.5}});
   Frame<2> frame;

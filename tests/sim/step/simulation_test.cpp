@@ -28,7 +28,7 @@ void run(Simulation& simulation, double duration)
   for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
 }
 
-/// A few dozen discs of several sizes poured onto a floor between walls, at rest.
+/// A few dozen discs of several sizes, poured onto a floor between walls, at rest.
 Simulation settled_heap(double tolerance)
 {
   std::vector<Disc> discs;
@@ -106,7 +106,7 @@ TEST(Simulation, WritingFramesChangesNothing)
 
 TEST(Simulation, AShiftAlongThePeriodChangesNoForce)
 {
-  // A row of discs on a floor, one of them leaning on two: contacts across the period and not.
+  // A row of discs on a floor, one of them leaning on two others: some contacts are across the period.
   const auto forces = [](double shift) {
     std::vector<Disc> discs{
         {{0.5, 0.5}, 0.5}, {{1.5, 0.5}, 0.5}, {{1.0, 1.3}, 0.5}, {{3.5, 0.5}, 0.5}};
@@ -135,7 +135,7 @@ TEST(Simulation, AShiftAlongThePeriodChangesNoForce)
 
 TEST(Simulation, ABeadOnTheBaseStaysOnTheBase)
 {
-  // Boundary grains do not move, whatever falls on them.
+  // Boundary grains do not move, even if grains fall on them.
   const std::vector<Disc> discs{{{0, 3}, 0.5}, {{-0.5, 0}, 0.5, true}, {{0.5, 0}, 0.5, true}};
   auto world = world_of(discs);
   world.material.restitution = 0.25;
@@ -194,7 +194,7 @@ TEST(Simulation, BranchIsTheDistanceOfTheCentresAndGapNegativeWhereDiscsOverlap)
 
 TEST(Simulation, AFrameUnwrapsToTheTruePositionWheneverTheListWasMade)
 {
-  // The list is made at x > 0; the disc then crosses x = 0 by less than the skin, also by 1e-18.
+  // The list is made while x > 0; then the disc crosses x = 0 by less than the skin, also by 1e-18.
   for (const double x : {-1e-3, -1e-18}) {
     const std::vector<Disc> discs{{{1e-3, 5}, 0.5}};
     auto world = world_of(discs);
@@ -239,7 +239,7 @@ TEST(Simulation, ASlowRiseUnderGravityFallsBackByLessThanItRoseAndEndsAtRest)
   EXPECT_NEAR(simulation.velocity(0).y(), 0, 1e-14);
 }
 
-/// Sweeps per step of the next `duration`, s.
+/// Mean number of sweeps per step over the next `duration`, s.
 double sweeps(Simulation& flow, double duration)
 {
   const auto steps = std::llround(duration / flow.world().step);
@@ -248,8 +248,8 @@ double sweeps(Simulation& flow, double duration)
   return sum / static_cast<double>(steps);
 }
 
-// The first guesses of an impact are lowered. If they could not catch up afterwards, every step would
-// be taken for an impact: the flow would have no guesses for good, and need twice the sweeps.
+// An impact lowers the first guesses. If guesses could not recover afterwards, every step would be
+// treated as an impact: the flow would never have guesses again, and need twice the sweeps.
 TEST(Simulation, AnImpactOnAFlowIsOverAfterIt)
 {
   auto flow = small_chute::bed(small_chute::paper_scene(
@@ -259,7 +259,7 @@ TEST(Simulation, AnImpactOnAFlowIsOverAfterIt)
   for (std::size_t g = 0; g < flow.world().grains.size(); ++g)
     if (!flow.world().grains.fixed[g]) flow.set_velocity(g, flow.velocity(g) - Vec2(0, 0.5));
   run(flow, 0.5);
-  // Between windows of half a second sweeps differ by 0.02.
+  // Mean sweeps of windows of half a second differ by 0.02.
   EXPECT_LT(sweeps(flow, 0.5), 1.1 * before);
 }
 

@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-/// What comes of work on the file "run.hdf5", which does not exist: the sentence with its exit code.
+/// Result of `work` on the file "run.hdf5", which does not exist: the message with its exit code.
 std::string outcome(const Apart::Work& work)
 {
   try {
@@ -25,7 +25,7 @@ std::string outcome(const Apart::Work& work)
 
 TEST(Apart, MessagesArriveInTheirOrder)
 {
-  const std::string long_one(1 << 20, 'x');  // more than a pipe holds
+  const std::string long_one(1 << 20, 'x');  // longer than the buffer of a pipe
   Apart apart("run.hdf5", [&](const Apart::Send& send) {
     send(long_one);
     send("");
@@ -43,17 +43,16 @@ TEST(Apart, WhatIsThrownArrivesWithItsExitCode)
   EXPECT_EQ(outcome([](const auto&) { throw RunError("disk"); }), "1 disk");
 }
 
-TEST(Apart, ACrashIsASentence)
+TEST(Apart, ACrashBecomesAMessage)
 {
   EXPECT_EQ(outcome([](const auto&) { _exit(7); }),
-            "3 run.hdf5, t = 2: reading it ends in a crash (exit code 7); the file is "
+            "3 run.hdf5, t = 2: reading ends in a crash (exit code 7); the file is "
             "damaged: copy it again");
   const auto said = outcome([](const auto&) {
     std::signal(SIGSEGV, SIG_DFL);
     std::raise(SIGSEGV);
   });
-  EXPECT_NE(said.find("3 run.hdf5, t = 2: reading it ends in a crash (signal 11)"),
-            std::string::npos)
+  EXPECT_NE(said.find("3 run.hdf5, t = 2: reading ends in a crash (signal 11)"), std::string::npos)
       << said;
 }
 
@@ -64,7 +63,7 @@ TEST(Apart, WorkWithoutAnEndIsStopped)
               while (more) {
               }
             }),
-            "3 run.hdf5, t = 2: reading it does not end; the file is damaged: copy it again");
+            "3 run.hdf5, t = 2: reading does not end; the file is damaged: copy it again");
 }
 
 TEST(Apart, ALongWorkMayTakeItsTimeForEachMessage)
@@ -89,7 +88,9 @@ TEST(Apart, MemoryIsLimited)
     const std::vector<char> much(std::size_t{4} << 30);
     send(std::string(much.data(), 1));
   });
-  EXPECT_EQ(said.find("3 run.hdf5: asks for more memory than a file of this size can fill"), 0u)
+  EXPECT_EQ(said.find("3 run.hdf5: reading asks for more memory than a file of this size can "
+                      "fill"),
+            0u)
       << said;
 }
 
@@ -107,11 +108,11 @@ TEST(Apart, TheProcessEndsWithTheOneThatListens)
   }
   close(ends[1]);
   char byte = 0;
-  EXPECT_EQ(read(ends[0], &byte, 1), 0);  // no process holds the other end
+  EXPECT_EQ(read(ends[0], &byte, 1), 0);  // no process has the other end open
   close(ends[0]);
 }
 
-/// Two moments with something in every array, and a third that is refused.
+/// An archive of two frames with data in every array, and a third frame that is refused.
 class Invented : public Archive {
  public:
   Invented()

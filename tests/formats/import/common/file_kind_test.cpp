@@ -38,7 +38,7 @@ std::string complaint_of(const std::string& format, const ArchiveFiles& files)
   return "no complaint";
 }
 
-TEST(FileKind, IsToldByTheFirstBytes)
+TEST(FileKind, IsRecognisedByTheFirstBytes)
 {
   const std::pair<std::string, const char*> starts[] = {
       {"PK\x03\x04", "a zip archive, as xlsx, ods and npz are"},
@@ -52,7 +52,9 @@ TEST(FileKind, IsToldByTheFirstBytes)
       {"---\ncreator: LAMMPS\ntimestep: 0\n", "a YAML file"},
       {"[{\"id\": 1}]", "a JSON file"},
       {std::string(257, 'a') + "ustar", "a tar archive"},
-      {"\x04\x22\x4d\x18", "packed by lz4: unpack it, or pack it by gzip, bzip2, xz or zstd"},
+      {"\x04\x22\x4d\x18",
+       "packed by lz4: decompress it, or compress it by gzip, bzip2, xz or "
+       "zstd"},
       {"2\nAtoms. Timestep: 0\n1 0.01 0.01 0\n", "an xyz file"},
       {"2\nLattice=\"1 0 0\"\r\nSi 0 0 0 1\r\n", "an xyz file"},
       {"made by hand\n\n12 atoms\n2 atom types\n0 1 xlo xhi\n", "a data file of LAMMPS"},
@@ -73,13 +75,13 @@ TEST(FileKind, OfTextThatIsReadHasNoName)
     EXPECT_EQ(other_kind(start), "") << start;
 }
 
-/// In tests/inputs/kinds.
+/// Files in tests/inputs/kinds.
 TEST(FileKind, OfFilesThatLammpsAndH5pyWroteIsNamed)
 {
   const std::string at = GRSEG_TEST_INPUTS "/kinds/";
   const std::pair<const char*, const char*> files[] = {
       {"atoms.bin", "a binary dump of LAMMPS: turn it into text by binary2txt"},
-      {"atoms.restart", "a restart file of LAMMPS: read it there, and write"},
+      {"atoms.restart", "a restart file of LAMMPS: read it in that program; then `run 0` with a"},
       {"atoms.data", "a data file of LAMMPS"},
       {"atoms.cfg", "a file of AtomEye (cfg)"},
       {"atoms.xyz", "an xyz file"},
@@ -90,7 +92,7 @@ TEST(FileKind, OfFilesThatLammpsAndH5pyWroteIsNamed)
   EXPECT_THROW(refuse_other_kind(GRSEG_TEST_INPUTS "/three-grains-closed.h5"), UsageError);
 }
 
-TEST(FileKind, IsToldWhicheverFormatWasNamedAndInWhateverFileItIs)
+TEST(FileKind, IsRecognisedWhicheverFormatWasNamedAndInAnyFile)
 {
   const lammps_text::Folder folder;
   const auto zip = folder.write("a.zip", "PK\x03\x04 and more");
@@ -106,7 +108,7 @@ TEST(FileKind, IsToldWhicheverFormatWasNamedAndInWhateverFileItIs)
   EXPECT_TRUE(mentions(complaint_of("lammps", files), zip + " is a zip archive"));
 }
 
-TEST(FileKind, InsideAPackedFileIsToldToo)
+TEST(FileKind, IsRecognisedInsideACompressedFileToo)
 {
   namespace io = boost::iostreams;
   const lammps_text::Folder folder;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace lammps_text;
 
-/// Archives of two moments, damaged; each is refused with its sentence, and nothing is written.
+/// Damaged archives of two frames; each is refused with its message, and nothing is written.
 class DamagedArchive : public testing::Test {
  protected:
   Folder folder;
@@ -23,7 +23,7 @@ class DamagedArchive : public testing::Test {
     ASSERT_NE(at, std::string::npos);
     text.replace(at, what.size(), by);
   }
-  /// The sentence and its exit code stand in damaged_archives.tsv, beside `damage`.
+  /// The message and its exit code are listed in damaged_archives.tsv, beside `damage`.
   void expect_refusal(const std::string& damage, int code, const std::string& sentence)
   {
     auto refused = refusal(settings(folder, grains, contacts));
@@ -88,7 +88,7 @@ TEST_F(DamagedArchive, AMomentTwiceWithOtherPositions)
   contacts += contacts_at(100);
   grains += block("ATOMS", 100, grain_columns, grain_rows(0.06));
   expect_refusal("a moment twice, with other positions", exit_usage,
-                 "step 100 comes after 100, and its grains are elsewhere than the first time");
+                 "step 100 comes after 100, and its grains are not where they were the first time");
 }
 
 TEST_F(DamagedArchive, UnitsThatDiffer)
@@ -118,7 +118,7 @@ TEST_F(DamagedArchive, HugeNumberOfRows)
 TEST_F(DamagedArchive, Empty)
 {
   grains.clear();
-  expect_refusal("empty", exit_content, "the archive holds no moment with grains and contacts");
+  expect_refusal("empty", exit_content, "the archive has no frame with grains and contacts");
 }
 
 TEST_F(DamagedArchive, AMissingOrDuplicateGrain)
@@ -126,7 +126,7 @@ TEST_F(DamagedArchive, AMissingOrDuplicateGrain)
   const auto whole = grains;
   replace(grains, "\n7 2", "\n8 2");
   expect_refusal("another grain than before, and contacts of the old one", exit_content,
-                 "a contact names grain 7, which is not among the grains of this moment");
+                 "a contact names grain 7, which is not among the grains of this frame");
   grains = whole;
   replace(grains, "\n7 2", "\n4 2");
   expect_refusal("a duplicate grain", exit_content, "grain 4 appears twice");
@@ -136,7 +136,7 @@ TEST_F(DamagedArchive, AContactOfAnUnknownGrain)
 {
   replace(contacts, " 4 7 ", " 5 7 ");
   expect_refusal("a contact of an unknown grain", exit_content,
-                 "a contact names grain 5, which is not among the grains of this moment");
+                 "a contact names grain 5, which is not among the grains of this frame");
 }
 
 TEST_F(DamagedArchive, ThatEndsInAMomentIsImportedUpToItOnRequest)

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-/// All questions come at once, also those whose answers depend on others.
+/// The import asks all questions at once, including questions whose answers depend on others.
 namespace grseg {
 namespace {
 
 using namespace lammps_text;
 
-/// Two discs of one size, of which neither rests; the lowest point of both is at y = -0.02.
+/// Two discs of one size, none at rest; the lowest point of both is at y = -0.02.
 class FirstAnswer : public testing::Test {
  protected:
   Folder folder;
@@ -27,7 +27,7 @@ class FirstAnswer : public testing::Test {
   }
 };
 
-// One moment in which all rest does not show which do so later.
+// One frame in which all grains are at rest does not show which grains stay at rest later.
 TEST_F(FirstAnswer, SaysWhereAFlowWithoutABaseBegins)
 {
   auto s = moving_discs();
@@ -44,7 +44,7 @@ TEST_F(FirstAnswer, AsksForTheOriginBesideTheSpecies)
   auto s = moving_discs();
   s.species.boundary = "none";
   const auto asked = refusal(s).sentence;
-  EXPECT_TRUE(mentions(asked, "how species are told apart"));
+  EXPECT_TRUE(mentions(asked, "how species differ"));
   EXPECT_TRUE(mentions(asked, "y = 0: --origin -0.02"));
 }
 

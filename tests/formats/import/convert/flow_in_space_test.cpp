@@ -32,7 +32,7 @@ class FlowInSpace : public testing::Test {
     run.read(0, frame, {.velocity = true, .contacts = true, .force = true});
     return frame;
   }
-  /// In both files, where it is there.
+  /// Replaces text in both files, if it occurs.
   static void replace(const ImportSettings& settings, const std::string& what,
                       const std::string& by)
   {
@@ -43,7 +43,7 @@ class FlowInSpace : public testing::Test {
       std::ofstream(file, std::ios::binary) << archive;
     }
   }
-  /// Of the file just written.
+  /// Checks the run in the file just written.
   void expect_run(const Flow& flow, const std::string& what) const;
   void expect_frame(const Frame<3>& found, const Frame<3>& expected, const std::string& what) const;
 };
@@ -76,7 +76,7 @@ void FlowInSpace::expect_frame(const Frame<3>& found, const Frame<3>& expected,
   for (std::size_t c = 0; c < of_all.size(); ++c) {
     const auto of = fmt::format(" of contact {}, {}", c, what);
     const double side =
-        contacts.i[c] == of_all.i[c] ? 1 : -1;  // i may be either of two mobile ones
+        contacts.i[c] == of_all.i[c] ? 1 : -1;  // i may be either of two mobile grains
     EXPECT_EQ(contacts.j[c], side > 0 ? of_all.j[c] : of_all.i[c]) << of;
     expect_near(side * contacts.force[c], of_all.force[c], "force" + of);
     expect_near(side * contacts.branch[c], of_all.branch[c], "branch" + of);
@@ -111,7 +111,7 @@ TEST_F(FlowInSpace, OfTablesIsTheSameInWhateverAxesWithAWall)
   }
 }
 
-// A mirror would change the sign of branch x force . spin.
+// A mirror image would change the sign of branch x force . spin.
 TEST_F(FlowInSpace, KeepsTheSenseOfAnObliqueContact)
 {
   const Flow flow;
@@ -129,13 +129,13 @@ TEST_F(FlowInSpace, KeepsTheSenseOfAnObliqueContact)
   }
 }
 
-// Gravity is vertical in the archive, whose x-z plane holds a base that falls by 30 degrees.
+// In the archive gravity is vertical; the base lies in its x-z plane and is inclined by 30 degrees.
 TEST_F(FlowInSpace, AVerticalGravityIsTurnedToTheSlopeAboutTheAxisAcross)
 {
   Flow flow;
   flow.box.periodic_x = false;
   flow.gravity = Vec3(5, -10 * std::sqrt(0.75), 0);
-  flow.frame.position[0].x() -= 7;  // on the side of the others
+  flow.frame.position[0].x() -= 7;  // at the side of the other grains
   for (auto& image : flow.frame.image) image[0] = 0;
   flow.balance();
   const double c = std::sqrt(0.75), s = 0.5;
@@ -160,7 +160,7 @@ TEST_F(FlowInSpace, AContactAcrossNeedsThePeriodAcross)
   replace(settings, "pp pp ff", "pp ff ff");
   EXPECT_EQ(refusal(settings).code, exit_check);
   EXPECT_TRUE(mentions(refusal(settings).sentence, "grains 5 and 3 are listed as touching"));
-  EXPECT_TRUE(mentions(refusal(settings).sentence, "is the cell periodic as the archive says?"));
+  EXPECT_TRUE(mentions(refusal(settings).sentence, "is the cell periodic as the archive states?"));
 }
 
 TEST_F(FlowInSpace, APeriodAlongTheNormalIsRefusedAtOnce)
@@ -169,7 +169,7 @@ TEST_F(FlowInSpace, APeriodAlongTheNormalIsRefusedAtOnce)
   replace(settings, "pp pp ff", "pp pp pp");
   EXPECT_EQ(refusal(settings).code, exit_usage);
   EXPECT_TRUE(mentions(refusal(settings).sentence,
-                       "the cell is periodic along z, the normal of the base, where layers end"));
+                       "the cell is periodic along z, the normal of the base, but a bed ends"));
   settings.axes = "xy";
   EXPECT_TRUE(mentions(refusal(settings).sentence, "periodic along y, the normal of the base"));
 }
@@ -194,10 +194,10 @@ TEST_F(FlowInSpace, ACellThatChangesAcrossIsRefused)
   folder.write("contacts", lammps_contacts(flow, views()[1]) + lammps_contacts(later, views()[1]));
   EXPECT_EQ(refusal(settings).code, exit_content);
   EXPECT_TRUE(mentions(refusal(settings).sentence,
-                       "the periodic length is 5.01, but 5 in the first moment"));
+                       "the periodic length is 5.01, but 5 in the first frame"));
 }
 
-// As 0 they would be wrong by a little and in silence.
+// If missing components were read as 0, results would be slightly wrong without any message.
 TEST_F(FlowInSpace, MissingComponentsAreNamed)
 {
   const auto lammps_without = [&](const char* from, const char* to) {
@@ -239,15 +239,15 @@ TEST_F(FlowInSpace, UnitsAreConvertedComponentByComponent)
   EXPECT_NEAR(run.parameters().number("density", ""), 2 / 0.125, 1e-12);
 }
 
-// The large sphere alone on the base, where m a = F + m g + c (m a + ...) h/2 as in
-// verification_test.cpp, and a small one that slides there without an acceleration along the normal.
+// The large sphere is alone on the base, where m a = F + m g + c (m a + ...) h/2 as in
+// verification_test.cpp; a small one slides there without acceleration along the normal.
 TEST_F(FlowInSpace, LateDampingRollsSpheresAndNotDiscs)
 {
   Flow flow;
   auto& contacts = flow.frame.contacts;
   const double half_step = 5e-4, c_n = 300, c_t = 200, small_mass = flow.grains.mass[3];
   const Vec3 aside(-0.6, 0.8, 0);
-  flow.frame.position[2] = flow.frame.position[3];  // it flies
+  flow.frame.position[2] = flow.frame.position[3];  // the third grain does not touch others
   flow.frame.position[3] = flow.frame.position[0] + 1.495 * aside;
   contacts.i[1] = 3;
   contacts.j[1] = 0;
@@ -268,7 +268,7 @@ TEST_F(FlowInSpace, LateDampingRollsSpheresAndNotDiscs)
   EXPECT_GT(report.parameters.number("import_residual_largest", ""), 0.01);
 }
 
-// Debian's lammps on scripts/archives/chute3d.lammps: 12 spheres of base and 48 above, undamped.
+// Output of Debian's lammps for scripts/archives/chute3d.lammps: 12 spheres of base and 48 above, undamped.
 TEST_F(FlowInSpace, OfLammpsItselfBalancesToRoundOff)
 {
   ImportSettings s;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether an archive tells how often grains have crossed its periods, and what a run says of it.
+// Number of times that grains have crossed the archive's periods: whether an archive records it,
+// and what the run then states.
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
@@ -14,7 +15,7 @@ class PeriodsOfAnArchive : public testing::Test {
  protected:
   Folder folder;
 
-  /// Grains at x = 0.05 in a cell of 0.1, with these columns of positions; `more` ends each row.
+  /// Grains at x = 0.05 in a cell of 0.1, with these columns of positions; `more` is appended to each row.
   static std::string grains(int step, const std::string& positions, const std::string& more = "",
                             double x = 0.05, const std::string& boundary = "pp ff pp")
   {
@@ -94,7 +95,7 @@ TEST_F(PeriodsOfAnArchive, AreNotForgottenHalfWay)
   EXPECT_EQ(refused.code, exit_content);
   EXPECT_TRUE(
       mentions(refused.sentence,
-               "moments before tell how often grains have crossed the periods, and this one "
+               "earlier frames state how often grains have crossed the periodic cell, and this one "
                "does not; import them separately, with --begin and --end"));
 }
 

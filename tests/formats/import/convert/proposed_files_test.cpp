@@ -9,7 +9,7 @@ namespace {
 
 using namespace lammps_text;
 
-/// Files whose names say the opposite of what they hold.
+/// Files whose names contradict their content.
 class NamedFiles : public testing::Test {
  protected:
   Folder folder;
@@ -76,16 +76,16 @@ TEST_F(NamedFiles, ThatNoFormatKnowsAreNamedWithTheirFirstLine)
   const auto text = folder.write("notes.txt", "what I did\n");
   EXPECT_TRUE(
       mentions(asked(unnamed("", {grains, text})),
-               text + ": its content is not known by its first line, 'what I did'; name it with "
+               text + ": its content is not recognised by its first line, 'what I did'; name it with "
                       "--grains or --contacts, and its --format"));
   EXPECT_TRUE(
-      mentions(asked(unnamed("liggghts", {grains, text})), "of --format liggghts is not known"));
+      mentions(asked(unnamed("liggghts", {grains, text})), "is not recognised as that of --format liggghts"));
   const auto table = folder.write("c.csv", "i,j,fx,fy\n");
   EXPECT_TRUE(mentions(asked(unnamed("", {grains, table})), "the files are not of one program"));
   auto s = unnamed("lammps", {grains});
   s.files.grains = {folder.write("more.dump", grains_at(100))};
   EXPECT_TRUE(mentions(
-      asked(s), grains + " is among the files with the grains, too: name it behind --grains"));
+      asked(s), grains + " also belongs to the files with the grains: name it behind --grains"));
 }
 
 }  // namespace

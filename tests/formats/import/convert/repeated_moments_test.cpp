@@ -6,37 +6,38 @@
 
 #include <utility>
 
-/// Two jobs, the second of which began from a checkpoint of the first.
+/// Archives written by two jobs; the second one began from a checkpoint of the first.
 namespace grseg {
 namespace {
 
 using namespace lammps_text;
 
-constexpr double first_place = 0.05, other_place = 0.06;  // m, of all grains along x
+constexpr double first_place = 0.05, other_place = 0.06;  // x in either job, m
 
-std::string grains_of_job(const std::vector<int>& steps, double x)
+using Steps = std::vector<std::int64_t>;
+
+std::string grains_of_job(const Steps& steps, double x)
 {
   std::string text;
-  for (const int step : steps) text += block("ATOMS", step, grain_columns, grain_rows(x));
+  for (const auto step : steps) text += block("ATOMS", step, grain_columns, grain_rows(x));
   return text;
 }
 
-std::string contacts_of_job(const std::vector<int>& steps)
+std::string contacts_of_job(const Steps& steps)
 {
   std::string text;
-  for (const int step : steps) text += contacts_at(step);
+  for (const auto step : steps) text += contacts_at(step);
   return text;
 }
 
-/// The step of each frame, and whether its grains are in the second job's place.
+/// Step of each frame, and true if its grains are at the second job's position.
 using Kept = std::vector<std::pair<std::int64_t, bool>>;
 
 class TwoJobs : public testing::Test {
  protected:
   Folder folder;
 
-  ImportSettings jobs(const std::vector<int>& first, const std::vector<int>& second,
-                      double second_place)
+  ImportSettings jobs(const Steps& first, const Steps& second, double second_place)
   {
     return settings(folder, grains_of_job(first, first_place) + grains_of_job(second, second_place),
                     contacts_of_job(first) + contacts_of_job(second));
@@ -64,7 +65,7 @@ TEST_F(TwoJobs, ThatWroteTheSameMomentsCountThemOnce)
   const auto s = jobs({0, 100, 200}, {100, 200, 300}, first_place);
   EXPECT_EQ(kept(s), four_alike);
   EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
-                       "2 moments come twice with equal grains; each counts once"));
+                       "2 frames come twice with equal grains; each is imported once"));
 }
 
 TEST_F(TwoJobs, MayHaveFilesOfTheirOwn)
@@ -81,12 +82,18 @@ TEST_F(TwoJobs, ThatWroteOtherMomentsAtTheSameStepsAreAskedAbout)
   const auto s = jobs({0, 100, 200}, {100, 200, 300}, other_place);
   EXPECT_EQ(refusal(s).code, exit_usage);
   EXPECT_TRUE(mentions(refusal(s).sentence,
-                       "step 100 comes after 200, and its grains are elsewhere than the first "
+                       "step 100 comes after 200, and its grains are not where they were the first "
                        "time: if a job began again from an earlier checkpoint, --repeated first"));
   EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {100, false}, {200, false}, {300, true}}));
   EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {100, true}, {200, true}, {300, true}}));
   EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
-                       "2 moments of a job are left out, which another job repeats"));
+                       "2 frames of a job are left out, because another job repeats them"));
+}
+
+TEST_F(TwoJobs, AreNamedByTheirStepsToTheLastDigit)
+{
+  const auto s = jobs({12345678901, 12345678911}, {12345678906}, other_place);
+  EXPECT_TRUE(mentions(refusal(s).sentence, "step 12345678906 comes after 12345678911: if a job"));
 }
 
 TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersMoments)
@@ -97,7 +104,7 @@ TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersMoments)
   EXPECT_EQ(kept(s, "last"), (Kept{{0, false}, {100, false}, {150, true}, {250, true}}));
 }
 
-// Contacts are written half as often; the moment 400 is in both jobs.
+// Contacts are written half as often as grains; step 400 is in both jobs.
 TEST_F(TwoJobs, GoOnWhereGrainsAreWrittenMoreOftenThanContacts)
 {
   const auto s = settings(folder,
@@ -118,7 +125,7 @@ TEST_F(TwoJobs, DoNotLendEachOtherTheirContacts)
   EXPECT_EQ(kept(s, "first"), (Kept{{0, false}, {100, false}, {200, true}, {300, true}}));
 }
 
-/// `text` without its last bytes.
+/// `text` without its last `bytes` bytes.
 std::string cut(std::string text, std::size_t bytes)
 {
   text.resize(text.size() - bytes);
@@ -139,13 +146,13 @@ class KilledJob : public TwoJobs {
     s.drop_incomplete = true;
     EXPECT_EQ(kept(s), four_alike);
     EXPECT_TRUE(mentions(TrajectoryReader(s.output).parameters().text("import_remarks"),
-                         "1 incomplete moment is left out (--drop-incomplete)"));
+                         "1 incomplete frame is left out (--drop-incomplete)"));
   }
 };
 
 TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInTheSameFile)
 {
-  for (const auto missing : {one_row, one_row + 8})  // to the end of a row, and inside one
+  for (const auto missing : {one_row, one_row + 8})  // to the end of a row, and inside a row
     expect_is_left_out(settings(folder,
                                 cut(grains_of_job({0, 100, 200}, first_place), missing) +
                                     grains_of_job({200, 300}, first_place),
@@ -163,7 +170,7 @@ TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInAnotherFile)
   }
 }
 
-// The contacts of that moment are not written yet.
+// Contacts of that step are not written yet.
 TEST_F(KilledJob, LeavesGrainsIncompleteBeforeTheirContacts)
 {
   for (const auto missing : {one_row, one_row + 8})
@@ -173,7 +180,7 @@ TEST_F(KilledJob, LeavesGrainsIncompleteBeforeTheirContacts)
                                 contacts_of_job({0, 100}) + contacts_of_job({200, 300})));
 }
 
-// The grains of that moment are in one job alone.
+// Grains of that step are in one job only.
 TEST_F(KilledJob, LeavesContactsIncompleteOfGrainsThatComeOnce)
 {
   expect_is_left_out(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grains that come and go, and parts of an archive: which rows there are, where facts come from, and
-// what is refused.
+// Imports in which grains come and go, and imports of a part of an archive: rows of the run, sources
+// of facts, and refusals.
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
@@ -13,7 +13,8 @@ namespace {
 
 using namespace lammps_text;
 
-/// The large disc on its base disc, the small one on top of it or not; the three of lammps_text.hpp.
+/// The large disc on its base disc, and the small one on top of it in some frames; the discs of
+/// lammps_text.hpp.
 class ArchiveThatChanges : public testing::Test {
  protected:
   Folder folder;
@@ -32,13 +33,13 @@ class ArchiveThatChanges : public testing::Test {
   {
     return block("ENTRIES", step, contact_columns, {contact_row(7, 9, 0.01, large_mass, true)});
   }
-  /// All three, then two, then all again.
+  /// All three grains, then two, then all again.
   ImportSettings one_leaves_and_comes_back()
   {
     return settings(folder, grains_at(0) + without_small(100) + grains_at(200),
                     contacts_at(0) + contacts_without_small(100) + contacts_at(200));
   }
-  /// Nobody, then the base, then the large disc, then all.
+  /// No grain, then the base, then the large disc, then all.
   ImportSettings pour()
   {
     return settings(
@@ -70,7 +71,7 @@ TEST_F(ImportOfGrainsThatComeAndGo, HasARowForEachAndMarksWhoIsAbsent)
   EXPECT_EQ(report.grains, 3u);
   EXPECT_EQ(report.frames, 3u);
   EXPECT_TRUE(
-      mentions(to_text(report), "grains come and go: 3 ids in all, between 2 and 3 present"));
+      mentions(to_text(report), "grains come and go: 3 ids in all, between 2 and 3 in a frame"));
   const TrajectoryReader run(s.output);
   EXPECT_TRUE(run.grains_come_and_go());
   EXPECT_TRUE(mentions(run.parameters().text("import_remarks"), "grains come and go"));
@@ -107,7 +108,7 @@ TEST_F(ImportOfGrainsThatComeAndGo, LeavesTheOthersAsTheyWouldBeAlone)
   EXPECT_EQ(among.contacts.gap, alone.contacts.gap);
 }
 
-// Neither the base nor the sizes, nor whether grains are discs, can be told from the first moment.
+// The first frame does not show the base, the sizes, or whether grains are discs.
 TEST_F(ImportOfGrainsThatComeAndGo, FindsItsFactsFromAllThatEverOccur)
 {
   const auto s = pour();
@@ -133,11 +134,28 @@ TEST_F(ImportOfGrainsThatComeAndGo, RefusesAnIdThatIsUsedAgain)
   const auto refused = refusal(s);
   EXPECT_EQ(refused.code, exit_content);
   EXPECT_TRUE(mentions(refused.sentence, "step 200"));
-  EXPECT_TRUE(
-      mentions(refused.sentence,
-               "the radius of grain 4 changes from 0.0025 to 0.003; was its id used again "
-               "after a grain had been removed? Then import the moments before and after it "
-               "separately, with --begin and --end"));
+  EXPECT_TRUE(mentions(refused.sentence,
+                       "the radius of grain 4 changes from 0.0025 to 0.003; was its id used again "
+                       "after a grain had been removed? Then import the frames before and after it "
+                       "separately, with --begin and --end"));
+}
+
+TEST_F(ImportOfGrainsThatComeAndGo, NamesADamagedFrameBeforeItAsksQuestions)
+{
+  auto changed = grains_at(200), cut = changed;
+  changed.replace(changed.find(" 0.0025 "), 8, " 0.0030 ");
+  cut.resize(cut.size() - 5);
+  for (const auto& [damaged, sentence] :
+       {std::pair{changed, "the radius of grain 4 changes"}, {cut, "the archive ends in"}}) {
+    auto s = settings(folder, grains_at(0) + without_small(100) + damaged,
+                      contacts_at(0) + contacts_without_small(100) + contacts_at(200));
+    s.step.reset();
+    EXPECT_EQ(refusal(s).code, exit_content);
+    EXPECT_TRUE(mentions(refusal(s).sentence, sentence));
+    folder.write("atoms.dump", grains_at(0) + grains_at(100) + damaged);
+    EXPECT_EQ(refusal(s).code, exit_usage) << "no frame before the damaged one has other grains";
+    EXPECT_TRUE(mentions(refusal(s).sentence, "--step"));
+  }
 }
 
 TEST_F(ImportOfGrainsThatComeAndGo, RefusesABedThatIsFrozenLater)
@@ -149,9 +167,8 @@ TEST_F(ImportOfGrainsThatComeAndGo, RefusesABedThatIsFrozenLater)
   const auto refused = refusal(s);
   EXPECT_EQ(refused.code, exit_content);
   EXPECT_TRUE(mentions(refused.sentence,
-                       "the type of grain 7 changes from 2 to 3; grains that are "
-                       "frozen or let go later are another bed: import the "
-                       "phases separately, with --begin and --end"));
+                       "the type of grain 7 changes from 2 to 3; if grains are frozen or released "
+                       "later, import the phases separately, with --begin and --end"));
 }
 
 TEST_F(ImportOfGrainsThatComeAndGo, RefusesAContactOfOneThatIsNotThere)
@@ -160,7 +177,7 @@ TEST_F(ImportOfGrainsThatComeAndGo, RefusesAContactOfOneThatIsNotThere)
       settings(folder, grains_at(0) + without_small(100), contacts_at(0) + contacts_at(100));
   EXPECT_TRUE(mentions(refusal(s).sentence, "step 100 "));
   EXPECT_TRUE(mentions(refusal(s).sentence,
-                       "a contact names grain 4, which is not among the grains of this moment"));
+                       "a contact names grain 4, which is not among the grains of this frame"));
 }
 
 TEST_F(ImportOfGrainsThatComeAndGo, AsksAboutFactsOnlyWhatAllGrainsLeaveOpen)
@@ -201,7 +218,7 @@ TEST_F(RangeOfMoments, IncludesItsBeginButNotItsEnd)
   EXPECT_EQ(steps_of(std::nullopt, "step:101"), (Steps{0, 100}));
 }
 
-// 3 x 1e-5 x 100 is not 0.003 to the last bit.
+// 3 x 1e-5 x 100 differs from 0.003 in the last bit.
 TEST_F(RangeOfMoments, InTimesIsTheSameWhateverTheRounding)
 {
   EXPECT_EQ(steps_of("0.001", "0.003"), (Steps{100, 200}));
@@ -225,14 +242,14 @@ TEST_F(RangeOfMoments, WithoutMomentsNamesTheRangeOfTheArchive)
   auto s = four_moments();
   s.begin = "1";
   EXPECT_EQ(refusal(s).sentence,
-            "no moment lies in the range --begin 1: the archive has 4 moments "
+            "no frame lies in the range --begin 1: the archive has 4 frames "
             "from step 0 to step 300");
   EXPECT_EQ(refusal(s).code, exit_usage);
   s.begin = "step:101";
   s.end = "step:199";
   EXPECT_TRUE(mentions(refusal(s).sentence,
-                       "no moment lies in the range --begin step:101 --end "
-                       "step:199: the archive has 4 moments"));
+                       "no frame lies in the range --begin step:101 --end step:199: the archive "
+                       "has 4 frames"));
 }
 
 TEST_F(RangeOfMoments, ThatIsNeitherATimeNorAStepIsRefused)
@@ -253,7 +270,7 @@ TEST_F(RangeOfMoments, InTimesNeedsTheLengthOfAStepWhereTheArchiveHasStepsOnly)
   s.begin = "0.001";
   EXPECT_TRUE(mentions(refusal(s).sentence,
                        "--begin is a time, but the archive has steps only, and "
-                       "the length of a time step is not known: pass it with "
+                       "the length of a time step is unknown: pass it with "
                        "--step"));
 }
 

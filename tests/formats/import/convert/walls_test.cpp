@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walls: what a grain's balance leaves over is theirs, by hand; and archives that LAMMPS and LIGGGHTS
-// wrote, whose walls carry the weight.
+// Walls: the force that is missing in a grain's balance is the wall's, by hand; and archives that
+// LAMMPS and LIGGGHTS wrote, whose walls carry the weight.
 #include "formats/trajectory/reader.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
@@ -25,7 +25,7 @@ Frame<D> frame_of(const ImportSettings& s, std::size_t index)
   return frame;
 }
 
-/// What walls exert in all.
+/// Sum of the forces of all walls.
 template <int D>
 Vector<D> force_of_walls(const Frame<D>& frame)
 {
@@ -35,7 +35,7 @@ Vector<D> force_of_walls(const Frame<D>& frame)
   return sum;
 }
 
-/// m g of the grains that are there, and what accelerates them.
+/// Sum of m g of the present grains, and of m a.
 template <int D>
 std::pair<Vector<D>, Vector<D>> weight_and_force(const Grains& grains, const Frame<D>& frame,
                                                  const Vector<D>& gravity)
@@ -53,7 +53,7 @@ class Walls : public testing::Test {
  protected:
   Folder folder;
 
-  /// The large disc of lammps_text.hpp at (x, 0.005), the small one on it; no base.
+  /// The large disc of lammps_text.hpp at (x, 0.005), with the small one on it and no base.
   ImportSettings two_discs(double x = 0.05, const std::string& boundary = "pp ff pp",
                            const std::string& columns = grain_columns, const std::string& more = "")
   {
@@ -75,7 +75,9 @@ TEST_F(Walls, AFloorThatIsNamedCarriesTheWeightOfWhatLiesOnIt)
   s.walls = {"floor=y:0"};
   const auto report = import_archive(s, "");
   EXPECT_EQ(report.parameters.text("import_base"), "walls floor (y = 0)");
-  EXPECT_TRUE(mentions(to_text(report), "forces of floor (y = 0) are inferred from the balance"));
+  EXPECT_TRUE(mentions(to_text(report),
+                       "forces of floor (y = 0) are inferred from the force "
+                       "balance"));
   const auto frame = frame_of<2>(s, 0);
   ASSERT_EQ(frame.contacts.size(), 2u);
   EXPECT_EQ(frame.contacts.i[1], 1);
@@ -93,7 +95,7 @@ TEST_F(Walls, HeightsAreAboveTheFloorWhereverItIs)
 {
   auto s = two_discs();
   s.walls = {"floor=y:-0.00001", "lid=y:0.09"};
-  const auto refused = refusal(s);  // a hundredth of a millimetre below the disc: it does not touch
+  const auto refused = refusal(s);  // wall 0.01 mm below the disc: no contact
   EXPECT_EQ(refused.code, exit_check);
   EXPECT_TRUE(mentions(refused.sentence, "the forces on grain 7 do not add up"));
   s.walls = {"floor=y:0.0001", "lid=y:0.09"};
@@ -121,7 +123,7 @@ TEST_F(Walls, InACornerEachWallPushesAlongItsNormal)
 TEST_F(Walls, OneThatWouldPullGetsNothingBesideOneThatPushes)
 {
   auto s = two_discs(0.005, "ff ff pp");
-  s.walls = {"floor=y:0", "left=x:0"};  // down the slope, away from it
+  s.walls = {"floor=y:0", "left=x:0"};  // this wall is down the slope, away from the discs
   import_archive(s, "");
   const auto frame = frame_of<2>(s, 0);
   ASSERT_EQ(frame.contacts.size(), 2u);
@@ -172,7 +174,7 @@ TEST_F(Walls, ColumnsOfTheSameNamesThatHoldSomethingElseAreRefused)
   s.origin = "0";
   const auto refused = refusal(s);
   EXPECT_EQ(refused.code, exit_content);
-  EXPECT_TRUE(mentions(refused.sentence, "the eight columns of wall mean hold 0.3 1 1"));
+  EXPECT_TRUE(mentions(refused.sentence, "the eight columns of wall mean are 0.3 1 1"));
   EXPECT_TRUE(mentions(refused.sentence, "pass --wall-columns none"));
 }
 
@@ -228,7 +230,7 @@ TEST_F(WallsOfTrueArchives, ThatArePlanesCarryTheWeightOfDiscsPouredInBySixDigit
   for (const std::size_t at_rest : {15U, 19U}) {
     const auto frame = frame_of<2>(s, at_rest);
     const auto [weight, force] = weight_and_force<2>(run.grains(), frame, {0, -9.8});
-    // A force's components are off by 5e-6 of themselves at most: 200 contacts of two rows each.
+    // The components of a force have a relative error of at most 5e-6: 200 contacts of two rows each.
     EXPECT_NEAR((force_of_walls(frame) + weight - force).norm() / weight.norm(), 0, 400 * 5e-6);
     EXPECT_NEAR(force.norm() / weight.norm(), 0, 0.01);
   }

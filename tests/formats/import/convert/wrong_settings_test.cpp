@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/importer.hpp"
 #include "formats/import/verify/judge.hpp"
+#include "tests/folder.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 #include "tests/formats/import/mercury_files.hpp"
 
@@ -12,11 +13,12 @@ namespace grseg {
 namespace {
 
 using lammps_text::Folder;
+using lammps_text::mentions;
 using lammps_text::read;
 
 const std::string inputs = GRSEG_TEST_INPUTS;
 
-/// A true archive with what a user who knows the run would say of it. Gravity is a vector.
+/// An archive that a program wrote, with the settings of a user who knows the run. Gravity is a vector.
 struct KnownArchive {
   const char* name;
   Vec3 gravity;
@@ -29,7 +31,7 @@ std::string text_of(const Vec3& gravity)
   return fmt::format("{},{},{}", gravity.x(), gravity.y(), gravity.z());
 }
 
-/// The grains without their masses: these then come from --density.
+/// Writes the grains without masses, which then come from --density.
 std::string without_masses(const Folder& folder, const std::string& path)
 {
   auto text = read(path);
@@ -96,7 +98,8 @@ ImportSettings of_siconos(const Folder&)
   return s;
 }
 
-/// Of the sample run, a tenth of a second apart: no forces on grains, and moments far apart.
+/// Settings for frames of the sample run, a tenth of a second apart: no forces on grains, and
+/// frames far apart.
 ImportSettings of_mercury(const Folder& folder)
 {
   const TrajectoryReader sample(inputs + "/../../data/sample/chute.h5");
@@ -124,10 +127,10 @@ const KnownArchive archives[] = {
     {"mercury", {9.8 * 0.390731128489274, -9.8 * 0.920504853452440, 0}, 0, 1, of_mercury},
 };
 
-/// A setting made wrong; false where the archive states it itself.
+/// Makes one setting wrong; returns false if the archive states this value itself.
 struct WrongSetting {
   const char* name;
-  std::vector<std::string> checks;  // of which one has to notice
+  std::vector<std::string> checks;  // at least one of these checks must report it
   std::function<bool(ImportSettings&, const KnownArchive&)> change;
 };
 
@@ -210,7 +213,7 @@ Outcome outcome_of(ImportSettings s, const Folder& folder)
   }
 }
 
-/// Whether one of these checks refused the import or left it undecided.
+/// True if one of these checks refused the import or was undecided.
 bool is_noticed(const Outcome& outcome, const std::vector<std::string>& checks)
 {
   return std::any_of(checks.begin(), checks.end(), [&](const std::string& check) {
@@ -285,7 +288,7 @@ TEST(Undecided, IsInTheFileAndWaivedByName)
   EXPECT_FALSE(lammps_text::mentions(run.parameters().text("import_undecided"), "balance"));
 }
 
-/// The moments of an imported run.
+/// Series of checks over the frames of an imported run.
 CheckSeries series_of(const TrajectoryReader& run)
 {
   CheckSeries series(run.size());
@@ -300,7 +303,7 @@ CheckSeries series_of(const TrajectoryReader& run)
   return series;
 }
 
-// What a merge of parts does: the findings follow from the observables and parameters of the file.
+// As in a merge of parts, findings follow from the observables and parameters of the file.
 TEST(Findings, FollowFromTheFileAlone)
 {
   const Folder folder;
@@ -319,6 +322,20 @@ TEST(Findings, FollowFromTheFileAlone)
     EXPECT_EQ(again[k].sentence, report.findings[k].sentence);
     EXPECT_EQ(again[k].measure, report.findings[k].measure);
   }
+}
+
+TEST(Findings, NeedGravityInTwoOrThreeDimensions)
+{
+  const auto complaint = [](const std::vector<double>& gravity) {
+    Parameters parameters;
+    parameters.numbers["gravity"] = gravity;
+    return complaint_of<FormatError>([&] { check_context({}, {}, parameters, true, "run.h5"); });
+  };
+  const std::string sentence =
+      "run.h5: /parameters/gravity does not have 2 numbers: import the archive again";
+  EXPECT_EQ(complaint({9.81}), sentence);
+  EXPECT_EQ(complaint({0, 9.81, 0, 0}), sentence);
+  EXPECT_TRUE(mentions(complaint({0, 9.81}), "/parameters/import_directions"));
 }
 
 }  // namespace

@@ -136,14 +136,14 @@ TEST_F(Csv, DamageIsNamedByLine)
   EXPECT_NE(grains(with(grain_table, "0.6", "0.4")).find("time 0.4 comes after time 0.5"),
             std::string::npos);
   EXPECT_NE(
-      grains(with(grain_table, "0.5,7", "0.5,7.5")).find("row 1 of that time: 7.5 is not an id"),
+      grains(with(grain_table, "0.5,7", "0.5,7.5")).find("row 1 of this frame: 7.5 is not an id"),
       std::string::npos);
   EXPECT_NE(grains(with(grain_table, "0.105", "nan")).find("'nan' in column 4"), std::string::npos);
   auto all = files(grain_table.substr(0, grain_table.size() - 4), contact_table);
   EXPECT_THROW(all_of(*csv_format.open(all)), TruncatedArchive);
 }
 
-/// One file per step, whose name ends in the step.
+/// One file per step; its name ends in the step.
 class CsvPerStep : public Csv {
  protected:
   void write(const std::string& name, const std::string& text) const
@@ -281,7 +281,7 @@ TEST_F(Csv, AMapThatFitsNothingIsRefused)
     }
     return std::string("no complaint");
   };
-  EXPECT_NE(said("particle1").find("is not NAME=COLUMN"), std::string::npos);
+  EXPECT_NE(said("particle1").find("is neither NAME=COLUMN"), std::string::npos);
   EXPECT_NE(said("particle1=i").find("no table has a column of that name"), std::string::npos);
   EXPECT_NE(said("x=raduis").find("radius"), std::string::npos) << said("x=raduis");
   EXPECT_EQ(said("omega="), "no complaint");
@@ -337,7 +337,7 @@ TEST_F(Csv, AColumnThatIsMissingIsAskedForByMap)
       << complaint("time,id,x,y,vx\n", contact_table);
   EXPECT_NE(complaint(grain_table, "time,a,j,fx,fy\n")
                 .find("no column i or id1 among 'time a j fx fy'"
-                      "; --map NAME=i tells which it is"),
+                      "; name the column with --map NAME=i"),
             std::string::npos);
 }
 
@@ -373,13 +373,25 @@ TEST_F(Csv, MomentsThatDoNotMatchAreNamed)
   const auto later = with(with(contact_table, "0.5,7", "0.500003,7"), "0.6,7", "0.600003,7");
   EXPECT_EQ(
       complaint(grain_table, later),
-      "no moment is in both tables: the grains begin with 0.5, 0.6, the contacts with 0.500003, "
-      "0.600003; write both at the same moments");
+      "no frame is in both tables: the grains begin with 0.5, 0.6, the contacts with 0.500003, "
+      "0.600003; write both at the same times");
   EXPECT_EQ(complaint(grain_table, "time,i,j,fx,fy\n"), "no complaint")
       << "there is nothing to match";
 }
 
-// A time that one program writes as 0 and another as what is left of it.
+TEST_F(Csv, StepsOfManyDigitsAreNamedExactly)
+{
+  const auto at = [](std::string table, const std::string& first, const std::string& second) {
+    table = with(with(table, "time,", "step,"), "0.5,", first + ",");
+    return with(table, "0.6,", second + ",");
+  };
+  EXPECT_EQ(complaint(at(grain_table, "12345678901", "12345679901"),
+                      at(contact_table, "12345678951", "12345679951")),
+            "no frame is in both tables: the grains begin with 12345678901, 12345679901, the "
+            "contacts with 12345678951, 12345679951; write both at the same times");
+}
+
+// One program writes a time as 0, another as round-off.
 TEST_F(Csv, TimesAreTheSameToABillionthOfWhatIsBetweenThem)
 {
   const auto at = [](const std::string& table, const char* time) {
@@ -458,10 +470,10 @@ TEST_F(CsvWithoutNames, ArePointedOutUntilTheirColumnsAreNamed)
 {
   EXPECT_NE(
       complaint(grain_rows, contact_table)
-          .find("line 1: the first line holds numbers, not names: give --map 1=id,2=x,... for "
-                "the columns"),
+          .find("line 1: the first line contains numbers, not names: name the columns with --map "
+                "1=id,2=x,..."),
       std::string::npos);
-  EXPECT_NE(complaint(grain_table, contact_rows).find("give --map 1=i,2=j,... for"),
+  EXPECT_NE(complaint(grain_table, contact_rows).find("name the columns with --map 1=i,2=j,..."),
             std::string::npos);
   auto all = files(grain_table, contact_table);
   all.map = {"3=x,12=y"};

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-/// Tables that scripts/archives/yade_export.py wrote, beside what YADE itself says.
+/// Tables that scripts/archives/yade_export.py wrote, compared with values that YADE computes itself.
 namespace grseg {
 namespace {
 
@@ -23,7 +23,7 @@ std::unique_ptr<Archive> open(const std::string& name)
   return csv_format.open(files);
 }
 
-/// Rows of `columns` numbers behind a time.
+/// Rows of `columns` numbers that follow a time, by time.
 std::map<double, std::vector<double>> rows_of(const std::string& name, std::size_t columns)
 {
   std::ifstream file(inputs + name);
@@ -48,7 +48,7 @@ TEST(YadeArchive, StressOfAPeriodicChuteIsYadesOwn)
     const auto& row = own.at(*moment.time);
     Eigen::Matrix3d yades;
     yades << row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8];
-    // Of its cell of 8 x 6 x 40, tension positive.
+    // YADE's stress is for its cell of 8 x 6 x 40, tension positive.
     EXPECT_LT((sum / (8 * 6 * 40) + yades).norm(), 1e-13 * yades.norm());
     EXPECT_LT(residual(moment, *archive->facts().gravity), 1e-13);
     EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, true, false}));
@@ -66,7 +66,7 @@ TEST(YadeArchive, BoundsOfABoxAreWallsWithTheForcesThatYadeSums)
   std::set<std::size_t> counts;
   for (const auto& moment : moments) {
     const auto& contacts = moment.contacts;
-    std::vector<Vec3> felt(7, Vec3::Zero());  // the floor, two boxes, four facets
+    std::vector<Vec3> felt(7, Vec3::Zero());  // forces on the floor, two boxes and four facets
     for (std::size_t c = 0; c < contacts.size(); ++c)
       if (at_wall(contacts, c))
         felt.at(static_cast<std::size_t>(contacts.wall[c])) -= contacts.force[c];
@@ -78,7 +78,7 @@ TEST(YadeArchive, BoundsOfABoxAreWallsWithTheForcesThatYadeSums)
   }
   EXPECT_GT(counts.size(), 3u) << "it is being filled";
 
-  double weight = 0, carried = 0;  // in the end it rests, up to what still trembles
+  double weight = 0, carried = 0;  // at the end it rests, except for small oscillations
   for (const double mass : moments.back().grains.mass) weight += mass * g;
   for (std::size_t c = 0; c < moments.back().contacts.size(); ++c)
     if (at_wall(moments.back().contacts, c)) carried += moments.back().contacts.force[c].z();

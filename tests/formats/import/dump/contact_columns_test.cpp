@@ -8,7 +8,7 @@
 namespace grseg {
 namespace {
 
-/// One row under the header a b fx fy bx wall.
+/// Reads one row under the header a b fx fy bx wall.
 ArchiveContacts row(const std::string& columns, const std::vector<double>& values)
 {
   ContactColumns map(columns);
@@ -30,7 +30,7 @@ TEST(ContactColumns, ANumberOfAWallMakesItThePartner)
   EXPECT_THROW(row(all, {7, 7, 1, 2, 0.005, 0.5}), FormatError);
 }
 
-// Positions of grains do not tell where the wall is.
+// Positions of grains do not determine the position of the wall.
 TEST(ContactColumns, AWallNeedsTheBranchToIt)
 {
   EXPECT_THROW(ContactColumns("i=a,j=b,fx=fx,wall=wall"), UsageError);

@@ -4,6 +4,7 @@
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
+#include "tests/folder.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <fmt/ranges.h>
@@ -137,8 +138,8 @@ TEST_F(Dump, PairsAreMatchedByStepAndTheRestIsReported)
   }
   EXPECT_EQ(steps, (std::vector<std::int64_t>{100, 400}));
   ASSERT_EQ(pair.remarks().size(), 2u);
-  EXPECT_TRUE(mentions(pair.remarks()[0], "3 moments have grains but no contacts"));
-  EXPECT_TRUE(mentions(pair.remarks()[1], "2 moments have contacts but no grains"));
+  EXPECT_TRUE(mentions(pair.remarks()[0], "3 frames have grains but no contacts"));
+  EXPECT_TRUE(mentions(pair.remarks()[1], "2 frames have contacts but no grains"));
 }
 
 TEST_F(Dump, TimesGiveTheLengthOfAStep)
@@ -164,9 +165,28 @@ TEST_F(Dump, StepsThatNoDumpSharesAreNamed)
     FAIL() << "no step is in both";
   } catch (const FormatError& error) {
     EXPECT_TRUE(mentions(error.what(),
-                         "the grains begin with 0, 100, 200, the contacts with 50, 150; write "
-                         "both at the same moments"));
+                         "the grains begin with 0, 100, 200, the contacts with 50, 150; write both "
+                         "at the same times"));
   }
+}
+
+TEST_F(Dump, StepsOfManyDigitsAreNamedExactly)
+{
+  const auto dump = [&](const char* name, const std::vector<std::int64_t>& steps) {
+    std::string text;
+    for (const auto step : steps) text += block(name, step, "id x", {"1 0.5"});
+    return folder.write(name, text);
+  };
+  const std::int64_t first = 12345678901, second = 9007199254740993;
+  DumpPair pair({dump("ATOMS", {first, second})}, {dump("ENTRIES", {second})});
+  EXPECT_TRUE(pair.next());
+  EXPECT_FALSE(pair.next());
+  EXPECT_TRUE(mentions(fmt::format("{}", fmt::join(pair.remarks(), "; ")),
+                       "are left out, the first at step 12345678901"));
+  DumpPair apart({dump("ATOMS", {first})}, {dump("ENTRIES", {first + 1, second})});
+  EXPECT_TRUE(mentions(complaint_of<FormatError>([&] { apart.next(); }),
+                       "the grains begin with 12345678901, the contacts with 12345678902, "
+                       "9007199254740993;"));
 }
 
 TEST_F(Dump, NumbersMayBeThoseOfFortranAndIdsBeyond32Bits)
@@ -192,7 +212,7 @@ TEST_F(Dump, TypesMayBeWords)
   EXPECT_THROW(grains_of(block("ATOMS", 0, "id x type", {"1 0.5 1.5"})), FormatError);
 }
 
-// `dump_modify triclinic/general yes`: edges of the cell, each with a coordinate of its origin.
+// `dump_modify triclinic/general yes` writes the edges of the cell, each with a coordinate of its origin.
 TEST_F(Dump, ACellGivenByItsEdgesIsReadWhereItIsRectangular)
 {
   const auto dump = [](const std::string& edges) {
@@ -211,7 +231,7 @@ TEST_F(Dump, ACellGivenByItsEdgesIsReadWhereItIsRectangular)
                        "line 6: '2 0 -1' is not an edge of the cell and its origin"));
 }
 
-/// Two steps of two grains and two contacts, as two processors write them.
+/// Two steps of two grains and two contacts, in files of two processors.
 class DumpOfProcessors : public Dump {
  protected:
   std::string write(const std::string& name, const std::string& label,
@@ -222,7 +242,7 @@ class DumpOfProcessors : public Dump {
       text += block(label, step, label == "ATOMS" ? "id x" : "i j fx", {row});
     return folder.write(name, text);
   }
-  /// "0: 1 2; 100: 1 2; " for the first column of the rows at each step.
+  /// First column of the rows at each step, as "0: 1 2; 100: 1 2; ".
   static std::string first_column(const std::vector<std::string>& files)
   {
     JoinedDumps dump(files);
@@ -270,7 +290,7 @@ TEST_F(DumpOfProcessors, FilesThatFollowOneAnotherAreInOrderOfTheirSteps)
       "0: 4; 100: 4; 200: 3; 300: 3; ");
 }
 
-// LAMMPS writes the header of a dump local for the first processor alone.
+// In a dump local, LAMMPS writes the header only in the file of the first processor.
 TEST_F(DumpOfProcessors, RowsWithoutAHeaderBelongToTheStepInTheirName)
 {
   std::vector<std::string> files;
@@ -285,7 +305,7 @@ TEST_F(DumpOfProcessors, RowsWithoutAHeaderBelongToTheStepInTheirName)
   const auto rows = folder.write("d.1", "3 4 0\n");
   EXPECT_TRUE(mentions(
       complaint_about({all, rows}),
-      rows + " has no header, which LAMMPS writes for the first processor alone, and " + all));
+      rows + " has no header, because LAMMPS writes it only for the first processor, and " + all));
 }
 
 TEST_F(DumpOfProcessors, AFileThatIsDamagedIsNotLeftOut)
@@ -299,7 +319,7 @@ TEST_F(DumpOfProcessors, WhatIsNotPartOfOneDumpIsNamed)
 {
   const auto a = write("a", "ATOMS", {0, 100}, "1 0.5");
   EXPECT_TRUE(mentions(complaint_about({a, write("c", "ENTRIES", {0, 100}, "1 2 0")}),
-                       "these files begin with the same step, but are not the parts of one dump"));
+                       "these files begin with the same step, but are not parts of one dump"));
   EXPECT_TRUE(mentions(complaint_about({a, write("b", "ATOMS", {0}, "2 0.5")}),
                        "this part of the dump ends behind step 0"));
 }

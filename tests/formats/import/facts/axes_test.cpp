@@ -15,13 +15,13 @@ Orientation plane(const std::string& letters, const Vec3& gravity, std::optional
   return orientation_of(letters, GravityText{std::nullopt, gravity}, slope, 2);
 }
 
-/// Velocity of the point of a disc that touches a base below it, in the plane of the flow.
+/// Velocity of the contact point of a disc on a base below it, in the plane of the flow.
 double slip(const Axes& axes, const Vec3& velocity, const Vec3& angular_velocity, double radius)
 {
   return axes.components(velocity).x() + axes.spin_in_plane(angular_velocity) * radius;
 }
 
-// Without slip v + omega x (r_contact - x) = 0, a product that is right-handed in whatever axes.
+// Without slip v + omega x (r_contact - x) = 0; this product is right-handed in all axes.
 TEST(Axes, ARollingDiscRollsInEveryPlane)
 {
   const double radius = 0.25;
@@ -63,7 +63,7 @@ TEST(Axes, VerticalGravityIsTurnedToTheSlopeOfTheBase)
 {
   const auto p = plane("xy", {0, -10, 0}, 30);
   EXPECT_TRUE(p.gravity.isApprox(Vec3(10 * sin_30, -10 * cos_30, 0)));
-  // Down the slope of a base that falls to the right.
+  // The flow is down the slope of a base that falls to the right.
   EXPECT_TRUE(p.axes.components({cos_30, -sin_30, 0}).head<2>().isApprox(Vec2(1, 0)));
   EXPECT_TRUE(p.axes.components({sin_30, cos_30, 0}).head<2>().isApprox(Vec2(0, 1)));
   EXPECT_NEAR(p.axes.spin_in_plane({0, 0, 3}), 3, 1e-15);

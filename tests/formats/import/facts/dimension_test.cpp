@@ -55,9 +55,9 @@ TEST(Dimension, IsThreeWhereSpheresDoNotOrOnRequest)
 TEST(Dimension, AnotherPlaneThanThatOfTheAxesIsNamed)
 {
   const auto said = complaint(in_x_z, "xy", false);
-  EXPECT_TRUE(mentions(said, "step 7: grains lie up to 1 apart across the plane of the flow"));
+  EXPECT_TRUE(mentions(said, "step 7: grains are up to 1 apart across the plane of the flow"));
   EXPECT_TRUE(mentions(said, "pass --axes xz for a flow in it, or --dimension 3"));
-  EXPECT_TRUE(mentions(complaint(in_x_y, "yz", true), "in a plane of the axes: pass --axes xy"));
+  EXPECT_TRUE(mentions(complaint(in_x_y, "yz", true), "they lie in another plane: pass --axes xy"));
 }
 
 TEST(Dimension, DiscsInSpaceAndAPlaneThatIsNoneAreRefused)

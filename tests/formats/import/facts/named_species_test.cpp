@@ -16,7 +16,7 @@ Species number(int k)
   return static_cast<Species>(k);
 }
 
-/// Types 1 to 6, of which 6 is the base.
+/// Grains of types 1 to 6; type 6 is the base.
 ArchiveGrains grains_of_six_types()
 {
   ArchiveGrains grains;
@@ -56,7 +56,7 @@ std::vector<std::string> names_in(const SpeciesFound& found)
 
 TEST(NamedSpecies, AreNumberedInOrderOfTheMeanOfTheirSmallestAndLargestDiameter)
 {
-  // From 1 to 4, 2, 3 and 9.
+  // Diameters 1 to 4, 2, 3 and 9.
   const auto found =
       assign_species(grains_of_six_types(), named({"huge=5", "wide=1,2", "SE=4", "AM=3"}));
   EXPECT_EQ(names_in(found), (std::vector<std::string>{"AM", "wide", "SE", "huge"}));
@@ -102,13 +102,13 @@ TEST(NamedSpecies, EveryTypeBelongsToOneSpeciesAlone)
                        "grain 10 is in --species A and in --species B"));
   EXPECT_TRUE(
       mentions(complaint(named({"A=1-5", "B=7"})),
-               "--species B=7: no mobile grain is of these types; leave it out, or give its "
+               "--species B=7: no mobile grain has these types; leave the option out, or add the "
                "diameter, B=7:DIAMETER"));
   auto grains = grains_of_six_types();
   grains.type.clear();
   auto settings = named({"A=1-5"});
   settings.boundary = "none";
-  EXPECT_TRUE(mentions(complaint(settings, grains), "have no types; --species NAME=all takes"));
+  EXPECT_TRUE(mentions(complaint(settings, grains), "have no types; --species NAME=all makes"));
 }
 
 TEST(NamedSpecies, NamesFitFilesAndTables)
@@ -130,7 +130,7 @@ TEST(NamedSpecies, WhatIsNotOfTheFormIsRefused)
     EXPECT_TRUE(mentions(complaint(named({fmt::format("A=1-5:{}", diameter)})), "not a diameter"));
   auto settings = named({"A=1-5"});
   settings.large_diameter = 2;
-  EXPECT_TRUE(mentions(complaint(settings), "--large-diameter does not go with --species"));
+  EXPECT_TRUE(mentions(complaint(settings), "--large-diameter cannot be combined with --species"));
 }
 
 TEST(NamedSpecies, AreNamedWhereSizesAreNotTwo)

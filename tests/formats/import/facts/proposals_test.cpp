@@ -6,8 +6,8 @@
 namespace grseg {
 namespace {
 
-/// Three grains of mass 2 in one column, along y: the lowest, of type 3, is held; what is above
-/// rests, or falls, in a gravity of (1, -4, 0).
+/// Three grains of mass 2 in one column along y. The lowest, of type 3, is held; the upper ones
+/// rest, or fall, under the gravity (1, -4, 0).
 ArchiveMoment column(const Vec3& acceleration)
 {
   const Vec3 gravity(1, -4, 0);

@@ -83,6 +83,19 @@ TEST(Species, TheArchivesOwnMarksAreTakenUnlessTypesAreNamed)
             (std::vector{boundary, small, large}));
 }
 
+TEST(Species, ATypeMayBeCalledAll)
+{
+  auto grains = grains_of_diameters({1, 2});
+  grains.type_names = {"all", "others"};
+  grains.type = {0, 1};
+  EXPECT_EQ(assign_species(grains, by_type("all", "others", "none")).species,
+            (std::vector{small, large}));
+  EXPECT_EQ(assign_species(grains, by_type("others", "all", "none")).species,
+            (std::vector{large, small}));
+  EXPECT_TRUE(mentions(complaint(grains, by_type("all", {}, "none")),
+                       "type others of grain 11 is neither"));
+}
+
 TEST(Species, EveryTypeMustBelongSomewhereAndOnlyOnce)
 {
   auto grains = grains_of_diameters({1, 2});

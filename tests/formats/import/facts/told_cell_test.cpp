@@ -40,7 +40,7 @@ TEST(ToldCell, ReplacesTheExtentOfTheGrainsButNoPeriodOfTheArchive)
     tell(parse_cells({"x:0:3:periodic"})[0], moment);
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_TRUE(mentions(error.what(), "the archive says x:0:2:periodic"));
+    EXPECT_TRUE(mentions(error.what(), "the archive states x:0:2:periodic"));
   }
 }
 

@@ -84,7 +84,7 @@ TEST(LiggghtsColumns, AreInTheOrderOfTheSourceWhateverTheOrderOfTheKeywords)
 
 TEST(LiggghtsColumns, DeltaIsBeforeTheContactPoint)
 {
-  // The manual: contactArea, heatFlux, contactPoint, and no delta.
+  // The manual lists contactArea, heatFlux, contactPoint, and no delta.
   EXPECT_EQ(liggghts_mapping("id,force,contactPoint,delta,contactArea", header_of(11)),
             "i=1,j=2,fx=4,fy=5,fz=6,overlap=8");
 }
@@ -112,7 +112,7 @@ TEST(LiggghtsColumns, LengthOfTheHistoryDependsOnTheModel)
 
 TEST(LiggghtsColumns, WithoutVelocitiesTheSameNumberMeansSomethingElse)
 {
-  // What 1.5.1 wrote by default has c_cp[13] in the middle of the force.
+  // In files of version 1.5.1, c_cp[13] is in the middle of the force by default.
   const auto header = header_of(19);
   EXPECT_NE(refusal("liggghts-default", header).find("25 columns"), std::string::npos);
   EXPECT_EQ(liggghts_mapping("pos,id,force,torque,history,contactArea", header),
@@ -170,9 +170,9 @@ TEST_F(Liggghts, OverlapIsDeltaNotADifferenceOfRoundedPositions)
   };
   const auto stated = frame_of("contacts-full35.dump").contacts;
   const auto found = frame_of("contacts-default25.dump").contacts;
-  ASSERT_EQ(stated.size(), 4u);  // two more are between grains of the base
+  ASSERT_EQ(stated.size(), 4u);  // two more contacts are between grains of the base
   EXPECT_EQ(stated.gap[0], -5.6389e-05);
-  // Differences of the 6-digit positions beside them are off by 2e-8.
+  // Differences of the positions, which have 6 digits, are off by 2e-8.
   for (std::size_t c = 0; c < stated.size(); ++c) EXPECT_NEAR(stated.gap[c], found.gap[c], 1e-10);
 }
 
@@ -248,8 +248,8 @@ TEST(LiggghtsColumns, OfTheComputeMayStandBesideTheIndex)
   EXPECT_EQ(liggghts_mapping("pos,id,force", header), "i=2,j=3,fx=4,fy=5,fz=6");
 }
 
-// Names that fit a preset in ids and force, but not in what stands behind them, of which the preset
-// knows the order.
+// The names fit a preset in ids and force, but not in the following columns, whose order the preset
+// defines.
 TEST_F(Liggghts, NamesOfColumnsChooseAmongTheKnownOnes)
 {
   auto all = files("contacts-full35.dump");

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using namespace archive_balance;
 using mercury_files::Style;
 
-/// Frames of the sample run with a wall under one grain, in files of MercuryDPM.
+/// Frames of the sample run with a wall under one grain, written as files of MercuryDPM.
 class Mercury : public testing::Test {
  protected:
   TrajectoryReader run{GRSEG_TEST_INPUTS "/../../data/sample/chute.h5"};
@@ -155,13 +155,13 @@ TEST_F(Mercury, DoubleRowsAreOneContactWithItsWholeForce)
   const auto rows = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) - 9;
   std::size_t contacts = 0;
   for (const auto& frame : frames) contacts += frame.contacts.size();
-  EXPECT_GT(rows, contacts + contacts / 2);  // most pairs stand there twice
+  EXPECT_GT(rows, contacts + contacts / 2);  // most pairs are listed twice
   expect_frames(files({}));
 }
 
 TEST_F(Mercury, WallRowsHaveTheOppositeSign)
 {
-  // Rows of a true archive: grain 27 sits on wall 2 at y = 0.
+  // Rows of an archive of MercuryDPM: grain 27 rests on wall 2 at y = 0.
   const std::string block =
       "# 0.02 1\n# 0 0 0 1 1 0\n# 0.05 0.05 0 0 0 0\n"
       "0.02 1 0 0.3685998372 0.192813987 0 0.00688691534 0 0.005373722573 0 0.994345469 "
@@ -223,7 +223,7 @@ TEST_F(Mercury, BlocksAreMatchedByTimeNotByOrder)
   const auto archive = mercury_format.open(all);
   all_of(*archive);
   ASSERT_EQ(archive->remarks().size(), 1u);
-  EXPECT_NE(archive->remarks()[0].find("1 moments have contacts but no grains"), std::string::npos);
+  EXPECT_NE(archive->remarks()[0].find("1 frames have contacts but no grains"), std::string::npos);
 }
 
 TEST_F(Mercury, TimesThatNoTableSharesAreNamed)
@@ -232,12 +232,11 @@ TEST_F(Mercury, TimesThatNoTableSharesAreNamed)
   Frame<2> late = frames[2];
   late.time += 0.01;
   all.contacts = {file("late.fstat", mercury_files::fstat(run.grains(), late, {}))};
-  EXPECT_NE(
-      complaint(all).find(fmt::format(
-          "no moment is in both tables: the grains begin with {:.10g}, {:.10g}, {:.10g}, the contacts "
-          "with {:.10g}",
-          frames[0].time, frames[1].time, frames[2].time, late.time)),
-      std::string::npos)
+  EXPECT_NE(complaint(all).find(fmt::format(
+                "no frame is in both tables: the grains begin with {:.10g}, {:.10g}, {:.10g}, the "
+                "contacts with {:.10g}",
+                frames[0].time, frames[1].time, frames[2].time, late.time)),
+            std::string::npos)
       << complaint(all);
 }
 
@@ -246,7 +245,7 @@ TEST_F(Mercury, WithoutRestartPairsAcrossThePeriodAreRefused)
   auto all = files({});
   all.restart.clear();
   EXPECT_FALSE(mercury_format.open(all)->facts().step);
-  EXPECT_NE(complaint(all).find("give --restart"), std::string::npos) << complaint(all);
+  EXPECT_NE(complaint(all).find("add --restart"), std::string::npos) << complaint(all);
 }
 
 TEST_F(Mercury, ATruncatedBlockEndsTheArchiveAfterTheWholeOnes)
@@ -260,6 +259,8 @@ TEST_F(Mercury, ATruncatedBlockEndsTheArchiveAfterTheWholeOnes)
     EXPECT_TRUE(archive->next(moment));
     EXPECT_TRUE(archive->next(moment));
     EXPECT_THROW(archive->next(moment), TruncatedArchive) << cut;
+    EXPECT_EQ(moment.grains.size(), run.grains().size()) << "those of the last whole block";
+    EXPECT_FALSE(moment.grains.angular_velocity.empty());
   }
   EXPECT_NE(complaint(all).find("--drop-incomplete"), std::string::npos);
 }
@@ -277,7 +278,7 @@ TEST_F(Mercury, FilesOfDifferentRunsAndDamageAreNamedByLine)
             std::string::npos);
   EXPECT_NE(with_data("1 0.5 0 0 1 1\n1 nan 0 0 1 0 0 0\n").find("'nan' in column 2"),
             std::string::npos);
-  EXPECT_NE(with_data("-4 0.5 0 0 1 1\n").find("not a number of grains"), std::string::npos);
+  EXPECT_NE(with_data("-4 0.5 0 0 1 1\n").find("not the number of grains"), std::string::npos);
   auto other = all;
   other.contacts = {file("bad.fstat", "0.5 1 2\n")};
   EXPECT_NE(complaint(other).find("begins with '# time 1'"), std::string::npos);
@@ -287,10 +288,10 @@ TEST_F(Mercury, FilesOfDifferentRunsAndDamageAreNamedByLine)
   auto fewer = run.grains();
   fewer.radius.pop_back();
   other.restart = file("fewer.restart", mercury_files::restart(fewer, run));
-  EXPECT_NE(complaint(other).find("give the last .restart of the run"), std::string::npos);
+  EXPECT_NE(complaint(other).find("name the last .restart of the run"), std::string::npos);
 }
 
-/// A flow in space in the files that MercuryDPM would write of it, rows being grains by id.
+/// A three-dimensional flow in files as MercuryDPM writes them; rows are grains by id.
 class MercuryInSpace : public testing::Test {
  protected:
   lammps_text::Folder folder;
@@ -332,7 +333,7 @@ class MercuryInSpace : public testing::Test {
 TEST_F(MercuryInSpace, IsTheSameInWhateverAxesAndFormat)
 {
   flow_in_space::Flow flow;
-  // A wall's contact point is where it cuts its normal through the grain.
+  // The contact point of a wall is the point where the normal through the grain meets the wall.
   flow.add_contact(3, -2, {0.5, 3, -0.75}, 0.48 * Vec3(0.36, 0.8, 0.48), -0.02);
   for (const auto& view : flow_in_space::views())
     for (const int format : {14, 15, 7}) {
@@ -367,7 +368,8 @@ TEST_F(MercuryInSpace, APeriodBesideTheAxesIsRefused)
   restart.replace(restart.find("normal 0 0 1"), 12, "normal 0 0.6 0.8");
   s.files.restart = folder.write("run.restart", restart);
   EXPECT_TRUE(lammps_text::mentions(lammps_text::refusal(s).sentence,
-                                    "is periodic along none of the axes, which is not imported"));
+                                    "of the periodic boundary is not one of the axes, which cannot "
+                                    "be imported"));
 }
 
 }  // namespace

@@ -3,14 +3,14 @@
 
 #include "tests/formats/import/mercury_files.hpp"
 
-/// A frame of grseg as the .restart that MercuryDPM would write of it, by the rules of its source.
+/// A frame of grseg as a .restart file of MercuryDPM, written by the rules of its source.
 namespace grseg::mercury_files {
 
 struct RestartStyle {
   std::string first_line = "MercuryDPM 1.0 name chute revision 7622ee90 repository none";
-  bool contact_points = true;  // not until 2015
-  std::string boundary = "";   // a line instead of the period along x
-  std::string of_system = "";  // behind the gravity
+  bool contact_points = true;  // true for files since 2015
+  std::string boundary = "";   // a line that replaces the period along x
+  std::string of_system = "";  // text after the gravity
   int id_factor = 1;           // ids are rows times this
 };
 
@@ -80,7 +80,7 @@ inline std::string interactions(const Grains& grains, const Frame<2>& frame,
   return all + "hGrid method TOPDOWN\n";
 }
 
-/// `floor` is where the InfiniteWall 2 is.
+/// Text of a whole .restart file; `floor` is the height of InfiniteWall 2.
 inline std::string whole_restart(const TrajectoryReader& run, const Frame<2>& frame, double floor,
                                  const RestartStyle& style)
 {
@@ -90,7 +90,7 @@ inline std::string whole_restart(const TrajectoryReader& run, const Frame<2>& fr
          interactions(run.grains(), frame, style);
 }
 
-/// Version 2 or 3: rows of numbers, each grain with as many springs as its row leaves over by three.
+/// A file of version 2 or 3: rows of numbers. The number of springs of each grain is its row modulo three.
 inline std::string old_restart(const TrajectoryReader& run, const Frame<2>& frame, int version)
 {
   const auto& grains = run.grains();

@@ -19,8 +19,8 @@ class MercuryRestarts : public testing::Test {
   TrajectoryReader run{GRSEG_TEST_INPUTS "/../../data/sample/chute.h5"};
   lammps_text::Folder folder;
   std::vector<Frame<2>> frames;
-  std::size_t leaning = 0;  // the grain on the wall
-  double reach = 0;         // of it to the wall
+  std::size_t leaning = 0;  // row of the grain on the wall
+  double reach = 0;         // distance of this grain's centre from the wall
 
   void SetUp() override
   {
@@ -39,7 +39,7 @@ class MercuryRestarts : public testing::Test {
       frames.push_back(frame);
     }
   }
-  /// Where positions have them; the sample is in single precision.
+  /// Moves contacts to match the positions, because the sample is in single precision.
   void place_contacts(Frame<2>& frame) const
   {
     const auto& radius = run.grains().radius;
@@ -52,7 +52,7 @@ class MercuryRestarts : public testing::Test {
       frame.contacts.gap[c] = frame.contacts.branch[c].norm() - radius[i] - radius[j];
     }
   }
-  /// Of contacts and gravity.
+  /// Adds the forces of contacts and gravity.
   void add_forces(Frame<2>& frame) const
   {
     const auto& grains = run.grains();
@@ -95,7 +95,7 @@ class MercuryRestarts : public testing::Test {
     if (!restart.empty()) files.restart = folder.write("last.restart", restart);
     return files;
   }
-  /// Blocks of .data with the first `counts` grains of each frame.
+  /// Text of .data with blocks of the first `counts` grains of each frame.
   std::string data(const std::vector<std::size_t>& counts) const
   {
     std::string all;
@@ -213,7 +213,7 @@ TEST_F(MercuryRestarts, OldVersionsHaveTheGrainsAndFStatTheForces)
       fstat += mercury_files::fstat(run.grains(), frames[k], {});
     }
     files.grains = {folder / "old.restart.*"};
-    EXPECT_TRUE(mentions(complaint(files), "give it as --grains and the .fstat")) << version;
+    EXPECT_TRUE(mentions(complaint(files), "name it with --grains and the .fstat")) << version;
     files.contacts = {folder.write("old.fstat", fstat)};
     const auto archive = mercury_format.open(files);
     const auto moments = all_of(*archive);
@@ -241,7 +241,7 @@ TEST_F(MercuryRestarts, OldRowsOfSeveralSpeciesThatDoNotNameOneAreRefused)
 {
   const auto text = with(mercury_files::old_restart(run, frames[0], 2), "Species 1\n",
                          "Species 2\nk 20 disp 2 rho 1 dim_particle 2\n");
-  EXPECT_TRUE(mentions(complaint(one(text)), "does not say to which of 2 species"))
+  EXPECT_TRUE(mentions(complaint(one(text)), "does not state to which of 2 species"))
       << complaint(one(text));
 }
 
@@ -251,14 +251,14 @@ TEST_F(MercuryRestarts, CellsThatAreNotAFixedRectangleAreRefusedInTheirOwnWords)
       {"LeesEdwardsBoundary id 0 left 0 right 1 down 0 up 1 shift 1 vel 1", "shears the cell"},
       {"TimeDependentPeriodicBoundary id 0 normal 1 0 0 distanceLeft 0 distanceRight 1",
        "shifts grains with time"},
-      {"AngledPeriodicBoundary id 0 normal_left 1 0 0", "turns grains"},
+      {"AngledPeriodicBoundary id 0 normal_left 1 0 0", "rotates grains"},
       {"StressStrainControlBoundary id 0 stressGoal 0", "changes the size of the cell"},
       {"SubcriticalMaserBoundary id 0 normal 1 0 0 distanceLeft 0 distanceRight 1",
        "in a part of the cell only"},
       {"PeriodicBoundary id 0 normal 1 0 0 distanceLeft 0 distanceRight 1 shift 1 0.2 0",
        "shifts grains obliquely"},
       {"PeriodicBoundary id 0 normal 0.6 0.8 0 distanceLeft 0 distanceRight 1",
-       "along none of the axes"}};
+       "is not one of the axes"}};
   for (const auto& [line, words] : cases) {
     const auto said = complaint(one(text_of(0, {.boundary = line})));
     EXPECT_TRUE(mentions(said, words)) << said;
@@ -281,11 +281,12 @@ TEST_F(MercuryRestarts, WhatIsNotAGrainOrNotWholeIsNamed)
 {
   const auto whole = text_of(0);
   const auto said_of = [&](const std::string& text) { return complaint(one(text)); };
-  EXPECT_TRUE(mentions(said_of(with(whole, "SphericalParticle", "Clump")), "is not one sphere"));
+  EXPECT_TRUE(mentions(said_of(with(whole, "SphericalParticle", "Clump")),
+                       "grains must be single spheres"));
   EXPECT_TRUE(mentions(said_of(with(whole, "SphericalParticle id 1", "...\nX id 1")),
                        "the rest of the block is left out"));
   EXPECT_TRUE(mentions(said_of(with(whole, "MercuryDPM 1.0", "restart_version 4")),
-                       "version '4' of .restart is not known"));
+                       "version '4' of .restart is unknown"));
   EXPECT_TRUE(mentions(said_of(with(whole, "timeStep", "timestep")), "time step is missing"));
   EXPECT_TRUE(mentions(said_of(text_of(0, {.of_system = " numberOfProcessors 2"})),
                        "the part of one of several processors"));
@@ -293,7 +294,7 @@ TEST_F(MercuryRestarts, WhatIsNotAGrainOrNotWholeIsNamed)
                        "names particle 99999"));
   const auto old = text_of(0, {.contact_points = false});
   EXPECT_TRUE(mentions(said_of(with(old, "InfiniteWall id 2", "Screw id 2")),
-                       "is with wall 2 (Screw), but does not name the contact point"));
+                       "is with wall 2 (Screw), but has no contact point"));
 }
 
 TEST_F(MercuryRestarts, GravityThatChangesIsRefused)
@@ -324,7 +325,7 @@ TEST_F(MercuryRestarts, RowsOfDataAreRefusedWhereGrainsWereRemoved)
                               .id_factor = 2};
   EXPECT_TRUE(mentions(complaint(tables(data({n, n}), text_of(2, removing))), sentence));
   EXPECT_EQ(complaint(tables(data({n, n}), text_of(2, {.id_factor = 2}))), "no complaint");
-  // One is removed, and the last row, of another size, takes its place.
+  // One grain is removed, and the last row, of another size, takes its row.
   std::size_t other = 0;
   while (std::abs(run.grains().radius[other] / run.grains().radius[n - 1] - 1) < 0.1) ++other;
   auto swapped = run.grains();

@@ -32,7 +32,7 @@ std::unique_ptr<Archive> open(const std::string& path)
   return siconos_format.open(files);
 }
 
-/// A copy of the file after some damage.
+/// A copy of the file with some damage.
 class DamagedSiconos : public testing::Test {
  protected:
   std::string path =
@@ -78,7 +78,7 @@ TEST(SiconosArchive, ImpulsesOverTheStepAreTheWeightsOfAStack)
   EXPECT_NEAR(*archive->facts().step, 0.005, 1e-9);
   ASSERT_EQ(last.contacts.size(), 2u);
   for (std::size_t c = 0; c < 2; ++c) {
-    // 9.80665 is what the program itself pulls with; its solver stopped at 3e-5.
+    // The program itself uses g = 9.80665; its solver stopped at 3e-5.
     const double weight = (at_wall(last.contacts, c) ? 5 : -3) * 9.80665;
     EXPECT_EQ(last.contacts.i[c], 1);
     EXPECT_NEAR(last.contacts.force[c].z(), weight, 1e-3 * std::abs(weight));
@@ -87,7 +87,7 @@ TEST(SiconosArchive, ImpulsesOverTheStepAreTheWeightsOfAStack)
 
 TEST(SiconosArchive, PointsOfOnePairAddUpToOneContact)
 {
-  // The table has three rows of the sphere on the plate and one of the two spheres.
+  // The table has three rows for the sphere on the plate and one for the two spheres.
   for (const auto& moment : all_of(*open(spheres))) {
     if (*moment.time < 0.024) continue;
     EXPECT_EQ(moment.contacts.size(), 2u);
@@ -112,13 +112,13 @@ TEST(SiconosArchive, GrainsBalanceInSinglePrecision)
   for (const auto& moment : all_of(*archive)) worst = std::max(worst, residual(moment, slope));
   EXPECT_LT(worst, 1e-5);
   EXPECT_GT(worst, 0);
-  // The file has four rows of contacts that had opened; with them the residual is 0.2.
+  // The file has four rows of contacts that had opened; if these counted, the residual would be 0.2.
   ASSERT_EQ(archive->remarks().size(), 1u);
   EXPECT_NE(archive->remarks()[0].find("4 rows of /data/cf"), std::string::npos);
 }
 
-/// How many grains of an archive turn as the torques of their contact forces say, and how many do
-/// not.
+/// Number of grains of an archive whose spin changes as the torques of contact forces demand, and
+/// number of all others.
 struct Turning {
   int close = 0, apart = 0;
 };
@@ -153,7 +153,8 @@ Turning turning_in(const std::string& path, double inertia)
   return counts;
 }
 
-// Its collision library (Bullet) gives some overlapping discs a normal beside the line of centres.
+// Siconos' collision library (Bullet) sets the normals of some overlapping discs aside from the
+// line of centres.
 TEST(SiconosArchive, TorquesOfTheForcesTurnTheGrains)
 {
   const auto plane = turning_in(discs, 0.5), space = turning_in(spheres_in_space, 0.4);
@@ -198,7 +199,7 @@ TEST(SiconosArchive, StaticPartnersAreFoundByTheirSurface)
       const auto j = entry.at(contacts.j[c]);
       with_base += moment.grains.fixed[j];
       const double reach = moment.grains.radius[i] + moment.grains.radius[j];
-      EXPECT_NEAR(contacts.branch[c].norm(), reach, 3e-3);  // one step's way
+      EXPECT_NEAR(contacts.branch[c].norm(), reach, 3e-3);  // tolerance: the way in one step
     }
   }
   EXPECT_GT(with_base, 100u);
@@ -234,11 +235,13 @@ TEST(SiconosArchive, EveryTenthStepHasNoForcesOnGrainsAndSaysWhatCannotBeTold)
     EXPECT_EQ(*moments[k].step, static_cast<std::int64_t>(10 * k));
   for (const auto& moment : moments) EXPECT_TRUE(moment.grains.force.empty());
   ASSERT_EQ(archive->remarks().size(), 1u);
-  EXPECT_NE(archive->remarks()[0].find("at most every 10 steps were written"), std::string::npos);
+  EXPECT_NE(archive->remarks()[0].find("only one of up to 10 steps was "
+                                       "written"),
+            std::string::npos);
 }
 
-/// Mean of what the ground carries in the last `count` moments, over the weight of all grains; its
-/// normal is `up`.
+/// Mean force that the ground carries in the last `count` frames, over the weight of all grains;
+/// the ground's normal is along axis `up`.
 double carried_in(const std::string& path, std::size_t count, int up)
 {
   const auto moments = all_of(*open(path));
@@ -254,7 +257,7 @@ double carried_in(const std::string& path, std::size_t count, int up)
 TEST(SiconosArchive, AGroundThatIsAConvexHullIsAWallThatCarriesTheWeight)
 {
   EXPECT_NEAR(carried_in(ground_in_space, 5, 2), 1, 1e-4);
-  // Discs still leave the ground for single steps: a bound that was seen, not derived.
+  // Discs still leave the ground for single steps: this bound was observed, not derived.
   EXPECT_NEAR(carried_in(ground_in_plane, 5, 1), 1, 0.1);
 }
 
@@ -275,7 +278,7 @@ TEST(SiconosArchive, ContactsWithAHullLieOnItOrOnItsMargin)
     }
     EXPECT_GT(found, 100u);
   };
-  expect_on_ground(ground_in_plane, 1, 0.006);  // 2 % of its height of 0.3
+  expect_on_ground(ground_in_plane, 1, 0.006);  // 2 % of the ground's height of 0.3
   expect_on_ground(ground_in_space, 2, 0);
 }
 
@@ -328,7 +331,7 @@ TEST_F(DamagedSiconos, WithoutTableOfContactsNamesTheSwitchThatWritesIt)
 TEST_F(DamagedSiconos, NonFiniteValuesAreNamedByRow)
 {
   const auto said = complaint([](hid_t file) { put(file, "/data/cf", 26 * 7 + 12, NAN); });
-  EXPECT_NE(said.find("row 7 of /data/cf holds a value that is not finite"), std::string::npos)
+  EXPECT_NE(said.find("row 7 of /data/cf contains a value that is not finite"), std::string::npos)
       << said;
 }
 
@@ -344,7 +347,8 @@ TEST_F(DamagedSiconos, UnknownBodiesAreNamed)
   EXPECT_NE(said.find("row 7 of /data/cf names body 99"), std::string::npos) << said;
 }
 
-/// One bit of spheres.hdf5, at each of these places, had an effect that no sentence told.
+/// Copies of spheres.hdf5 with one changed bit, at each position where the change once had an
+/// effect without any message.
 class FlippedSiconos : public DamagedSiconos {
  protected:
   std::string complaint_of_flip(std::streamoff at, int bit)
@@ -372,7 +376,7 @@ TEST_F(FlippedSiconos, TablesThatClaimAnyNumberOfRowsAreRefusedByTheSizeOfTheFil
   expect_refused(12116, 6, "/data/solv claims to hold more than a file of this size can");
 }
 
-// What HDF5 does with a heap whose objects have no size differs between its versions.
+// HDF5's behaviour for a heap whose objects have no size differs between its versions.
 TEST_F(FlippedSiconos, TextsOfAHeapWithoutEndAndTextsThatCrashTheLibraryAreRefused)
 {
   expect_refused(8056, 7, "the file is damaged");
@@ -381,11 +385,11 @@ TEST_F(FlippedSiconos, TextsOfAHeapWithoutEndAndTextsThatCrashTheLibraryAreRefus
 
 TEST_F(FlippedSiconos, AMassInAnotherFormatOfNumbersIsRefused)
 {
-  const auto said = "'mass' of /data/input/s1 should hold numbers of a usual type";
+  const auto said = "'mass' of /data/input/s1 should be numbers of a usual type";
   expect_refused(20160, 0, said);
 }
 
-/// Copies `from` without what its tables have before `time`.
+/// Copies `from` without the rows of its tables before `time`.
 void copy_from_time(const std::string& from, const std::string& to, float time)
 {
   fs::copy_file(from, to);
@@ -414,7 +418,7 @@ TEST_F(DamagedSiconos, ARunWhoseFirstStatesWereTakenAwayHasTheOtherMoments)
   const auto archive = open(path);
   const auto rest = all_of(*archive);
   EXPECT_NEAR(*archive->facts().step, 0.002, 1e-8);
-  ASSERT_EQ(rest.size(), 30u);  // 0.1 is what the next step begins with
+  ASSERT_EQ(rest.size(), 30u);  // the next step begins at 0.1
   for (std::size_t k = 0; k < rest.size(); ++k) {
     const auto& meant = whole[50 + k];
     EXPECT_EQ(rest[k].step, meant.step);
@@ -423,14 +427,16 @@ TEST_F(DamagedSiconos, ARunWhoseFirstStatesWereTakenAwayHasTheOtherMoments)
     EXPECT_LT(residual(rest[k], slope), 1e-5);
   }
   ASSERT_FALSE(archive->remarks().empty());
-  EXPECT_NE(archive->remarks()[0].find("does not have the state before its first step"),
+  EXPECT_NE(archive->remarks()[0].find("the first step is left out, because the file does not have "
+                                       "the state before it"),
             std::string::npos);
 }
 
 TEST_F(DamagedSiconos, OneStepWithoutAStateBeforeItGivesNoLengthOfAStep)
 {
   copy_from_time(discs, path, 0.159F);
-  EXPECT_NE(complaint().find("row 0 of /data/solv is the only one, and no state before it"),
+  EXPECT_NE(complaint().find("row 0 of /data/solv is the only one, and the file has no earlier "
+                             "state"),
             std::string::npos)
       << complaint();
 }
@@ -438,7 +444,7 @@ TEST_F(DamagedSiconos, OneStepWithoutAStateBeforeItGivesNoLengthOfAStep)
 TEST_F(DamagedSiconos, StepsAtOneTimeAreTheLimitOfSinglePrecision)
 {
   const auto said = complaint([](hid_t file) { put(file, "/data/solv", 4 * 40, 0.08F); });
-  EXPECT_NE(said.find("row 40 of /data/solv has the time of the row before it: single precision"),
+  EXPECT_NE(said.find("row 40 of /data/solv has the time of the previous row: single precision"),
             std::string::npos)
       << said;
 }

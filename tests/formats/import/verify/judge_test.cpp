@@ -14,7 +14,7 @@ namespace {
 
 using lammps_text::mentions;
 
-/// Spheres of two sizes under gravity (0, -10, 0), whose masses come from --density.
+/// Context of spheres of two sizes under gravity (0, -10, 0), with masses from --density.
 CheckContext context_of(bool has_force = true)
 {
   CheckContext context;
@@ -30,7 +30,7 @@ CheckContext context_of(bool has_force = true)
   return context;
 }
 
-/// A moment from which gravity follows with a standard error.
+/// A frame from which gravity follows with a standard error.
 CheckMoment moment_with(const Vec3& gravity, double error)
 {
   CheckMoment moment;
@@ -64,7 +64,7 @@ TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
   EXPECT_EQ(gravity_of({0.5, -10, 0}, 0.2).verdict, Verdict::undecided);
 }
 
-// Four moments, each of which knows gravity to 0.01: the slope of the last two is 20 degrees more.
+// Four frames, each with gravity accurate to 0.01; the slope in the last two is 20 degrees larger.
 TEST(JudgeGravity, ThatTurnsWithinTheArchiveIsRefused)
 {
   const double twenty = 20 * lammps_text::pi / 180;
@@ -81,7 +81,7 @@ TEST(JudgeGravity, ThatTurnsWithinTheArchiveIsRefused)
   EXPECT_NEAR(finding.measure, 2 * std::sin(twenty / 2), 1e-9);
 }
 
-// Displacements are velocity times time in the first half, and twice that in the second.
+// Displacements are velocity times time in the first half, and twice that in the second half.
 TEST(JudgeTime, ThatRunsTwiceAsFastInTheSecondHalfIsRefused)
 {
   CheckSeries series(8);
@@ -93,7 +93,7 @@ TEST(JudgeTime, ThatRunsTwiceAsFastInTheSecondHalfIsRefused)
   const auto finding = judge_time(series, context_of());
   EXPECT_EQ(finding.verdict, Verdict::failed);
   EXPECT_TRUE(
-      mentions(finding.sentence, "in the first half of the moments and 2 times in the second"));
+      mentions(finding.sentence, "in the first half of the frames and 2 times in the second"));
 }
 
 TEST(JudgeMasses, AreOpenWhereTheySuggestOtherGrainsThanWereTold)
@@ -131,8 +131,8 @@ TEST(JudgeCompleteness, IsOpenWhereUnlistedPairsMayPart)
   EXPECT_EQ(verdict(), Verdict::failed);
 }
 
-// A bed at rest without the contacts with its walls: what is inside balances, what is at the side does
-// not.
+// A bed at rest without the contacts with its walls: inner grains are in balance, grains at the sides
+// are not.
 TEST(JudgeBalance, IsUndecidedWhereMostGrainsBalanceButNotAll)
 {
   auto moment = moment_with({0, -10, 0}, 0.01);
@@ -171,7 +171,7 @@ TEST(JudgeGravity, IsSaidInTheUnitsAndAxesOfTheArchive)
   EXPECT_TRUE(mentions(finding.sentence, "--gravity 0,0,-500"));
 }
 
-// Sums over all grains that alternate between -9 and -11: a mean of -10, and neighbours that differ.
+// Sums over all grains that alternate between -9 and -11: the mean is -10, and neighbours differ.
 TEST(JudgeGravity, FromSumsNeedsEightPairsOfMoments)
 {
   CheckSeries series;
@@ -189,7 +189,8 @@ TEST(JudgeGravity, FromSumsNeedsEightPairsOfMoments)
   EXPECT_TRUE(mentions(judge_gravity(series, upward).sentence, "or contacts with the base"));
 }
 
-// Masses as r^3 instead of r^2 make the weight over the mass of small grains twice that of large ones.
+// If masses scale as r^3 instead of r^2, the ratio of weight to mass of small grains is twice that of
+// large ones.
 TEST(JudgeMasses, SpheresForDiscsShowInTheWeightOfSmallAndLargeGrains)
 {
   auto moment = moment_with({0, -10, 0}, 0.01);
@@ -213,13 +214,12 @@ TEST(JudgeMasses, WithoutForcesOnlyTheWeightIsKnown)
   auto context = context_of(false);
   const auto finding = judge_masses(series, context, gravity);
   EXPECT_EQ(finding.verdict, Verdict::undecided);
-  EXPECT_TRUE(
-      mentions(finding.sentence, "the archive shows the weight, mass times gravity, alone"));
+  EXPECT_TRUE(mentions(finding.sentence, "the archive shows only the weight, mass times gravity"));
   context.masses_are_given = false;
   EXPECT_EQ(judge_masses(series, context, gravity).verdict, Verdict::passed);
 }
 
-/// Grains that move with y = k x for several x.
+/// Sums for grains that move with y = k x, for several x.
 SlopeSums line(double k, double noise = 0)
 {
   SlopeSums sums;
@@ -258,7 +258,7 @@ TEST(JudgeTime, AStepTenTimesTooLongIsRefusedWithTheStepThatFits)
   EXPECT_EQ(time_of(line(0.5, 0.5)).verdict, Verdict::failed);
 }
 
-TEST(JudgeTime, APackingAtRestTellsNothing)
+TEST(JudgeTime, APackingAtRestProvesNothing)
 {
   EXPECT_EQ(time_of({}).verdict, Verdict::undecided);
   EXPECT_EQ(time_of(line(0.1, 3)).verdict, Verdict::undecided) << "noise";

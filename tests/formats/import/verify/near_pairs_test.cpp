@@ -17,7 +17,7 @@ struct Crowd {
   Frame<3> frame;
 };
 
-/// Grains with radii from 0.01 to 0.5, some absent, some of the boundary, in a cell of length 3.
+/// Grains with radii from 0.01 to 0.5 in a cell of length 3, some absent, some boundary grains.
 Crowd crowd(int dimension)
 {
   const bool in_space = dimension == 3;

@@ -12,8 +12,7 @@ namespace {
 
 using lammps_text::mentions;
 
-/// A disc of mass 2 that falls freely, and one of mass 3 that a base disc holds against gravity (0,
-/// -10).
+/// A disc of mass 2 falls freely; a base disc holds one of mass 3 against gravity (0, -10).
 struct Scene {
   Grains grains;
   Box box{10, 10, true};
@@ -73,7 +72,7 @@ TEST(Verification, SaysWhichOtherReadingFits)
   scene.frame.contacts.force[0] = {0, 60, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "with half of every force"));
   scene.frame.contacts.force[0] = {7, 30, 0};
-  EXPECT_TRUE(mentions(scene.complaint(), "with the normal part alone"));
+  EXPECT_TRUE(mentions(scene.complaint(), "with only the normal part"));
   scene.frame.force[1] = {-7, 0, 0};
   EXPECT_TRUE(mentions(scene.complaint(), "with the tangential part reversed"));
   scene.frame.force[1] = {0, 0, 0};
@@ -108,7 +107,7 @@ TEST(Verification, OverlapOfSoftGrainsIsNoGapInTheGeometry)
   EXPECT_TRUE(mentions(scene.complaint(), "while the archive states a distance of 2.02"));
 }
 
-/// Discs 1 and 2, of radii 0.5 and 1, side by side with an overlap of 0.1.
+/// A scene with discs 1 and 2, of radii 0.5 and 1, side by side with an overlap of 0.1.
 Scene overlapping_discs()
 {
   Scene scene;
@@ -132,10 +131,10 @@ TEST(Verification, APairThatOverlapsWithoutARowOfTheBaseNamesTheBase)
 {
   Scene scene;
   scene.frame.position[0] = {2.4, 0, 0};
-  EXPECT_TRUE(mentions(scene.complaint(), "rows with the base are missing"));
+  EXPECT_TRUE(mentions(scene.complaint(), "contacts with the base are missing"));
 }
 
-// Contact dynamics lists what bears a force; a pair that parts may still overlap.
+// Contact dynamics lists contacts with a force; a pair that parts may still overlap.
 TEST(Verification, RigidGrainsThatBalanceMayOverlapWithoutARow)
 {
   const auto scene = overlapping_discs();
@@ -146,7 +145,7 @@ TEST(Verification, RigidGrainsThatBalanceMayOverlapWithoutARow)
   EXPECT_EQ(verification.moment().unlisted, 0);
 }
 
-// Without forces on grains nothing tells whether the pair bears one.
+// Without forces on grains it is unknown whether the pair has a contact force.
 TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
 {
   auto scene = overlapping_discs();
@@ -159,7 +158,7 @@ TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
   EXPECT_EQ(verification.moment().unlisted_may_part, 1);
 }
 
-// Spins 3, and velocities that differ by 3 x (2.4 - 1, 0) = (0, 4.2).
+// Spins are 3, and velocities differ by 3 x (2.4 - 1, 0) = (0, 4.2).
 TEST(Verification, NeighboursThatShareSpinAndMotionAreOneBody)
 {
   auto scene = overlapping_discs();
@@ -188,8 +187,8 @@ TEST(Verification, DampingMayPullALittle)
   EXPECT_TRUE(mentions(scene.complaint(), "contacts pull: 30 %"));
 }
 
-// A disc of mass 3 that gains 2 per s upward: half a step of 0.1 later the damping 7 m v is less by
-// 7 * 3 * 2 * 0.05.
+// A disc of mass 3 is accelerated upward by 2: half a step of 0.1 later the damping 7 m v is
+// smaller by 7 * 3 * 2 * 0.05.
 TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForce)
 {
   Scene scene;
@@ -207,7 +206,7 @@ TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForc
   EXPECT_TRUE(verification.check(scene.frame)) << "damping does not drive";
 }
 
-// Without forces on grains a fall from rest has v = g t, and the held grain none.
+// Without forces on grains: a fall from rest has v = g t, and the held grain stays at rest.
 TEST(Verification, WithoutForcesVelocitiesOfTwoStepsAreUsed)
 {
   Scene scene;
@@ -225,10 +224,10 @@ TEST(Verification, WithoutForcesVelocitiesOfTwoStepsAreUsed)
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_EQ(complaint->check, "balance");
-  EXPECT_TRUE(mentions(complaint->sentence, "difference of velocities between two moments"));
+  EXPECT_TRUE(mentions(complaint->sentence, "difference of velocities between two frames"));
 }
 
-// The force on the held grain changes from 30 to 60: over a step its mean may be anything between.
+// The force on the held grain changes from 30 to 60 over a step; its mean may be any value between.
 TEST(Verification, AForceThatChangesOverAStepIsKnownToHalfOfTheChange)
 {
   Scene scene;
@@ -244,7 +243,7 @@ TEST(Verification, AForceThatChangesOverAStepIsKnownToHalfOfTheChange)
     scene.frame.time = 1;
     scene.frame.velocity = {{0, -10, 0}, {0, velocity, 0}, {0, 0, 0}};
     scene.frame.contacts.force[0] = {0, 60, 0};
-    // m v = 0 to 30
+    // accepted impulses m v: 0 to 30
     EXPECT_EQ(verification.check(scene.frame).has_value(), velocity < 0 || velocity > 10)
         << velocity;
   }
@@ -263,7 +262,7 @@ TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
   EXPECT_FALSE(verification.residual());
   EXPECT_EQ(verification.moment().balance_grains, 0);
   EXPECT_DOUBLE_EQ(verification.moment().change, 10.0 / 40);
-  // Where they do not change, as in a packing at rest, the median grain in contact is judged.
+  // If forces do not change, as in a packing at rest, the median grain in contact is judged.
   scene.frame.step = 2000;
   scene.frame.time = 2000;
   const auto complaint = verification.check(scene.frame);
@@ -271,8 +270,8 @@ TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
   EXPECT_EQ(complaint->check, "balance");
 }
 
-// The disc falls for 0.4 s, meets the floor that is not in the archive, and is at rest again, while the
-// contacts of the other have not changed at all: nothing is wrong, and nothing can be judged.
+// The disc falls for 0.4 s, hits a floor that is not in the archive, and is at rest again, while the
+// contacts of the other disc have not changed: nothing is wrong, and nothing can be judged.
 TEST(Verification, MomentsAreFarApartWhereAGrainMayHaveMetAnotherInBetween)
 {
   for (const double speed : {0.0, 0.04}) {
@@ -306,7 +305,7 @@ TEST(Verification, ADeepOverlapHasItsOwnNameAndCanBeWaived)
   EXPECT_DOUBLE_EQ(waived.moment().overlap, 0.5);
 }
 
-// The disc on the base disc is held by a wall below, which the archive does not mention.
+// A wall below, which the archive does not mention, holds the disc on the base disc.
 TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
 {
   Scene scene;
@@ -317,8 +316,8 @@ TEST(Verification, AMissingWallIsNamedWhereGrainsLackItsPush)
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(mentions(complaint->sentence,
-                       "the only grain that does not balance is at a side of the bed and lacks "
-                       "a push away from it (1 at the lowest z, at about z = 0.5)"));
+                       "the only grain that does not balance is at a side of the bed and lacks a "
+                       "force that pushes away from it (1 at the lowest z, at about z = 0.5)"));
   EXPECT_TRUE(mentions(complaint->sentence, "name the wall, as in --wall floor=z:0"));
 }
 
@@ -330,7 +329,7 @@ TEST(Verification, AMissingContactIsNamedByItsGrains)
                        "acts between grains 2 and 3, which touch: their contact is missing"));
 }
 
-// Discs 1 and 2, a tenth of the smaller radius apart, draw each other with the force 6.
+// Discs 1 and 2, a tenth of the smaller radius apart, attract each other with the force 6.
 TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
 {
   Scene scene;
@@ -339,10 +338,10 @@ TEST(Verification, OppositeForcesOnNeighboursWithoutARowAreContactsThatPull)
   scene.frame.force[1] = {6, 0, 0};
   EXPECT_TRUE(
       mentions(scene.complaint(), "the missing forces act between 1 pairs without a listed force"));
-  EXPECT_TRUE(mentions(scene.complaint(), "(the largest: grains 1 and 2): contacts that pull"));
+  EXPECT_TRUE(mentions(scene.complaint(), "(the largest: grains 1 and 2): attractive contacts"));
 }
 
-// The disc leaves the base by 1 in a step of 0.1: its contact bore a force while they touched.
+// The disc moves away from the base by 1 in a step of 0.1; its contact had a force while they touched.
 TEST(Verification, GrainsThatPartWithinAStepHaveTouchedWhereItBegan)
 {
   Scene scene;
@@ -359,7 +358,7 @@ TEST(Verification, GrainsThatPartWithinAStepHaveTouchedWhereItBegan)
   EXPECT_TRUE(with_step(0.09));
 }
 
-/// Three discs that fly, each slowed down by twice its momentum.
+/// A scene with three discs in flight, each slowed down by a force of twice its momentum.
 Scene flight(const std::vector<Vec3>& velocity)
 {
   Scene scene;
@@ -392,7 +391,7 @@ TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
   EXPECT_TRUE(complaint->spoils_gravity);
 }
 
-// Velocities of 1 for 0.1, and displacements of 0.5, five times as far.
+// Velocities of 1 for a time of 0.1, but displacements of 0.5, five times as far.
 TEST(Verification, MomentsWhoseGrainsMovedTooFarAreNotOneStepApart)
 {
   Scene scene;
@@ -410,7 +409,7 @@ TEST(Verification, MomentsWhoseGrainsMovedTooFarAreNotOneStepApart)
   const auto complaint = verification.check(scene.frame);
   ASSERT_TRUE(complaint);
   EXPECT_TRUE(mentions(complaint->sentence, "5 times as far as their velocities allow"));
-  EXPECT_TRUE(mentions(complaint->sentence, "are 1 and 2 the numbers of outputs?"));
+  EXPECT_TRUE(mentions(complaint->sentence, "are 1 and 2 numbers of frames instead of steps?"));
 }
 
 TEST(Verification, AMissingTangentialPartIsNamed)
@@ -429,10 +428,10 @@ TEST(Verification, ABedThatIsStillFillingIsNamed)
   contacts.branch[0] = {0, 1.8, 0};
   contacts.gap[0] = -0.2;
   contacts.force[0] = {9, 80, 0};
-  EXPECT_TRUE(mentions(scene.complaint(), "a bed that is still being filled"));
+  EXPECT_TRUE(mentions(scene.complaint(), "the bed may still be filling"));
 }
 
-/// The same with spheres: one that falls, and one on a base sphere in an oblique direction, across
+/// The same with spheres: one falls, and one is on a base sphere in an oblique direction, across
 /// both periods.
 struct SceneInSpace {
   Grains grains = Scene().grains;
@@ -476,7 +475,7 @@ TEST(VerificationInSpace, FindsWhatIsWrongInEachComponent)
   }
   SceneInSpace scene;
   scene.box.periodic_z = false;
-  EXPECT_TRUE(mentions(scene.complaint(), "is the cell periodic as the archive says?"));
+  EXPECT_TRUE(mentions(scene.complaint(), "is the cell periodic as the archive states?"));
 }
 
 TEST(VerificationInSpace, SaysWhichOtherReadingFits)
@@ -489,8 +488,8 @@ TEST(VerificationInSpace, SaysWhichOtherReadingFits)
   EXPECT_TRUE(mentions(scene.complaint(), "with half of every force"));
 }
 
-// A force f of the contact at mid-step is F - c_n m a_n h/2 along n and, with the rim's acceleration
-// a_t - r alpha x n = a_t + F_t/(0.4 m), likewise along the tangents; then m a = F at mid-step + m g.
+// A contact force f at mid-step is F - c_n m a_n h/2 along n. Along the tangents the same is true
+// with the rim's acceleration a_t - r alpha x n = a_t + F_t/(0.4 m). Then m a = F at mid-step + m g.
 TEST(VerificationInSpace, LateDampingOfARollingSphereIsFoundInEveryDirection)
 {
   SceneInSpace scene;
@@ -502,7 +501,7 @@ TEST(VerificationInSpace, LateDampingOfARollingSphereIsFoundInEveryDirection)
   scene.frame.contacts.force[0] = force;
   scene.frame.force[1] = along_n / (1 - c_n * half_step) +
                          (along_t + c_t * half_step * friction / 0.4) / (1 - c_t * half_step);
-  // The falling sphere slides along a wall without an acceleration away from it.
+  // The falling sphere slides along a wall without acceleration away from it.
   auto& contacts = scene.frame.contacts;
   contacts.i.push_back(0);
   contacts.j.push_back(-1);

@@ -74,7 +74,7 @@ TEST(Geometry, AHopperHoldsItsGrainsUntilItsOutletOpens)
   EXPECT_EQ(deposited.world().grains.size() - simulation.world().grains.size(), 6U);  // the plug
   run_for(simulation, 0.15);
   EXPECT_GT(below(simulation), 20U);
-  // The outlet has the width that was asked for: no bead reaches into it, two end at its edges.
+  // The outlet has the requested width: no bead reaches into it, and two beads end at its edges.
   double left = 0, right = scene.length;
   for (std::size_t g = 0; g < simulation.world().grains.size(); ++g) {
     if (!simulation.world().grains.fixed[g]) continue;
@@ -108,7 +108,7 @@ TEST(Geometry, ADrumHasNoGapAndKeepsItsGrains)
                                                           scene.drum_diameter / 2;
                          }),
             0U);
-  // Turned clockwise, the bed leans to the left, where the drum comes up.
+  // The drum turns clockwise; the bed leans to the left, where the drum moves up.
   double moment = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (!grains.fixed[g]) moment += grains.mass[g] * (simulation.position(g) - centre).x();
@@ -201,8 +201,8 @@ TEST(Geometry, AShakenBaseMovesAsAskedAndThrowsItsBed)
     simulation.advance();
     highest = std::max(highest, bed_height(simulation));
   }
-  // By 4.5 amplitudes where it is solved to the end.
-  EXPECT_GT(highest, before + 3 * scene.shake_amplitude);  // 5.8 g
+  // 4.5 amplitudes if the solver converges fully.
+  EXPECT_GT(highest, before + 3 * scene.shake_amplitude);  // acceleration 5.8 g
 }
 
 TEST(Geometry, ABaseThatIsNoLongerShakenStandsStill)

@@ -123,7 +123,7 @@ TEST(Scene, ASlopeThatTurnsIsStoredAndMustTurnSlowly)
   }
 }
 
-/// The key that a scene is refused for.
+/// Key for which a scene is refused.
 std::string refused_key(const std::vector<std::string>& words)
 {
   try {
@@ -200,7 +200,7 @@ TEST(Scene, GrainsUnderMuchHeavierOnesGetMoreSweeps)
 
 TEST(Scene, GrainsUnderAHeavyPlateGetMoreSweeps)
 {
-  // Twenty small discs of 0.0785 kg find room under it.
+  // There is space under the plate for twenty small discs of 0.0785 kg.
   const auto sweeps = [](const std::vector<std::string>& words) {
     std::vector<std::string> all{"--geometry", "shear", "--phi-large",      "0",
                                  "--density",  "1000",  "--small-diameter", "0.01m",
@@ -208,8 +208,8 @@ TEST(Scene, GrainsUnderAHeavyPlateGetMoreSweeps)
     all.insert(all.end(), words.begin(), words.end());
     return scene_from(all).solver.min_sweeps;
   };
-  EXPECT_EQ(sweeps({"--plate-mass", "1.5"}), 8);  // 0.95 masses over each
-  EXPECT_EQ(sweeps({}), 2 * 8);                   // 2: of beads twice as large
+  EXPECT_EQ(sweeps({"--plate-mass", "1.5"}), 8);  // 0.95 masses per disc
+  EXPECT_EQ(sweeps({}), 2 * 8);                   // 2 masses per disc: beads are twice as large
   EXPECT_EQ(sweeps({"--plate-mass", "14"}), 3 * 8);
 }
 
@@ -255,11 +255,11 @@ TEST_F(SceneFile, ALineThatIsNoKeyAndNoCommentIsNamedByItsNumber)
   EXPECT_EQ(complaint("slope = 23\n\n  # steeper?\nfriction 0.5\n").find(path + ":4: "), 0);
 }
 
-/// Boost.ProgramOptions would put such a word in its own place again and again.
+/// Boost.ProgramOptions would replace such a word by itself again and again.
 TEST_F(SceneFile, APlaceholderOfTheParserIsRefused)
 {
   for (const char* text : {"%invalid_line%\n", "%option% = 1\n", "slope = %value%\n"})
-    EXPECT_NE(complaint(text).find("no key and no value may hold %"), std::string::npos) << text;
+    EXPECT_NE(complaint(text).find("no key and no value may contain %"), std::string::npos) << text;
 }
 
 TEST_F(SceneFile, AValueThatIsNotANumberIsNamedWithItsLine)
@@ -308,7 +308,7 @@ TEST_F(SceneFile, ThatDoesNotExistIsAUsageError)
   EXPECT_THROW(read_scene_file("/nowhere/chute.ini", values), UsageError);
 }
 
-/// docs/guide/scene-keys.md as the table of keys gives it.
+/// Text of docs/guide/scene-keys.md, generated from the table of keys.
 std::string reference_of_keys()
 {
   const std::map<KeyRole, std::string> restart{{KeyRole::bed, "no"},
@@ -380,7 +380,7 @@ TEST(SceneKeys, ThatDifferAreFoundByWhatTheyBelongTo)
   EXPECT_EQ(differing_key(one, other, KeyRole::extent), "duration");
 }
 
-// The line "bed" of a table, by which runs are known again, leaves out what does not act on the motion.
+// The line "bed" of a table identifies a run; it omits keys that do not affect the motion.
 TEST(SceneKeys, ThoseOfExtentAndMachineAndWhichFramesAreWrittenDoNotActOnTheMotion)
 {
   const std::set<std::string> of_frames{"frame-interval", "burst", "keep-deposition"};
