@@ -62,9 +62,10 @@ void check(const RunOptions& run, const po::variables_map& given)
 }
 
 /// True if `checkpoint` was written after the last step of `scene` and `output` is published.
-bool is_finished(const Checkpoint& checkpoint, const Scene& scene, const std::string& output)
+bool is_finished(const AnyCheckpoint& checkpoint, const Scene& scene, const std::string& output)
 {
-  return checkpoint.state.steps_done >= scene.steps_in_all() && holds_something(output) &&
+  const auto steps_done = std::visit([](const auto& c) { return c.state.steps_done; }, checkpoint);
+  return steps_done >= scene.steps_in_all() && holds_something(output) &&
          !holds_something(part_of(output));
 }
 
@@ -84,7 +85,7 @@ int main(int argc, char** argv)
   using namespace grseg;
   const ToolInfo info{
       "grseg-sim",
-      "contact dynamics of small and large rigid discs: chute, drum, plane shear, column, hopper.",
+      "contact dynamics of small and large rigid discs or spheres: chute, drum, plane shear, column, hopper.",
       "grseg-sim SCENE.ini [--key value ...] -o run.h5\n"
       "       grseg-sim --restart run.chk [--key value ...] -o run.h5",
       "  grseg-sim sim/scenes/chute.ini -o run.h5            flow of Staron & Phillips (2015), 150 s\n"
@@ -112,8 +113,10 @@ int main(int argc, char** argv)
     if (run.continues && holds_something(run.checkpoint)) run.restart = run.checkpoint;
     if (run.restart.empty()) return begin(resolve_scene(inputs[0], given), run);
     const auto checkpoint = read_checkpoint(run.restart);
+    const auto& text = std::visit(
+        [](const CheckpointHead& head) -> const auto& { return head.scene; }, checkpoint);
     const auto scene =
-        inputs.empty() ? scene_of(checkpoint, run.restart, given) : resolve_scene(inputs[0], given);
+        inputs.empty() ? scene_of(text, run.restart, given) : resolve_scene(inputs[0], given);
     if (run.continues && is_finished(checkpoint, scene, run.output)) {
       if (!run.quiet) fmt::print(stderr, "grseg-sim: {} is finished\n", run.output);
       return;

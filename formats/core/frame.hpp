@@ -13,7 +13,7 @@
 /// The data that simulator and analysis share, in D = 2 or 3 dimensions. Everything is in SI units.
 /// x points down the slope, y is normal to the base and points up, z points across the flow. The
 /// cell may be periodic along x and z. Units of density and stress are kg/m^2 and N/m in two
-/// dimensions, kg/m^3 and Pa in three. The simulator supports two dimensions only.
+/// dimensions, kg/m^3 and Pa in three.
 namespace grseg {
 
 template <int D>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Loads bodies, whose four members lie side by side in memory, into one vector per member, and
-// stores them; loads pairs of numbers likewise. Compiled once per instruction set, by files that
+// Loads bodies, whose members lie side by side in memory, into one vector per member, and stores
+// them; loads four or two numbers likewise. Compiled once per instruction set, by files that
 // include themselves for that purpose (hwy/foreach_target.h).
 #if defined(GRSEG_SIM_BODIES) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRSEG_SIM_BODIES
@@ -17,64 +17,61 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Members of several MotionOf, one vector per member, one body per lane; with floats the last
-/// vector is 0. With doubles it also loads other structs of four doubles, such as Pairs::Memory.
+/// Four members of several structs, one vector per member, one struct per lane.
 template <class Tag>
-struct Bodies {
-  hn::Vec<Tag> vx, vy, rim_speed, inverse_mass;
-};
-
-/// Velocity of bodies i relative to bodies j, and the sum of their inverse masses.
-struct Relative {
-  Vector vx, vy, inverse_mass;
-};
+using Fours = std::array<hn::Vec<Tag>, 4>;
 
 #if HWY_TARGET == HWY_SCALAR
 
 template <class Tag, class Real>
-HWY_INLINE Bodies<Tag> load_bodies(Tag d, const Real* motion, const std::uint32_t* at)
+HWY_INLINE Fours<Tag> load_fours(Tag d, const Real* from, const std::uint32_t* at)
 {
-  const Real* body = motion + *at;
-  return {hn::Load(d, body), hn::Load(d, body + 1), hn::Load(d, body + 2), hn::Load(d, body + 3)};
+  const Real* row = from + *at;
+  return {hn::Load(d, row), hn::Load(d, row + 1), hn::Load(d, row + 2), hn::Load(d, row + 3)};
 }
 
 template <class Tag, class Real>
-HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, Real* motion, const std::uint32_t* at)
+HWY_INLINE void store_fours(Tag d, const Fours<Tag>& members, Real* to, const std::uint32_t* at)
 {
-  Real* body = motion + *at;
-  hn::Store(b.vx, d, body);
-  hn::Store(b.vy, d, body + 1);
-  hn::Store(b.rim_speed, d, body + 2);
+  for (std::size_t k = 0; k < 4; ++k) hn::Store(members[k], d, to + *at + k);
 }
 
-HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t* i,
-                                  const std::uint32_t* j)
+/// The members at i plus those at j, with opposite signs for the first `opposite` of j.
+template <std::size_t opposite>
+HWY_INLINE Fours<Doubles> load_sums(Doubles d, const double* from, const std::uint32_t* i,
+                                    const std::uint32_t* j)
 {
-  const auto a = load_bodies(d, motion, i), b = load_bodies(d, motion, j);
-  return {a.vx - b.vx, a.vy - b.vy, a.inverse_mass + b.inverse_mass};
+  const auto a = load_fours(d, from, i), b = load_fours(d, from, j);
+  Fours<Doubles> sums;
+  for (std::size_t k = 0; k < 4; ++k) sums[k] = k < opposite ? a[k] - b[k] : a[k] + b[k];
+  return sums;
 }
 
-HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
-                            const std::uint32_t* i, const std::uint32_t* j)
+/// Adds `members` times the number at `factor` of each row to the rows at i, and with opposite
+/// signs of the first `opposite` members to the rows at j. Rows begin `shift` numbers later.
+template <std::size_t factor, std::size_t opposite>
+HWY_INLINE void add_products(Doubles d, const Fours<Doubles>& members, std::size_t shift,
+                             double* to, const std::uint32_t* i, const std::uint32_t* j)
 {
-  auto a = load_bodies(d, motion, i), b = load_bodies(d, motion, j);
-  a = {a.vx + a.inverse_mass * px, a.vy + a.inverse_mass * py, a.rim_speed - a.inverse_mass * spin,
-       a.inverse_mass};
-  b = {b.vx - b.inverse_mass * px, b.vy - b.inverse_mass * py, b.rim_speed - b.inverse_mass * spin,
-       b.inverse_mass};
-  store_bodies(d, a, motion, i);
-  store_bodies(d, b, motion, j);
+  for (std::size_t k = 0; k < 4; ++k) {
+    double *a = to + *i, *b = to + *j;
+    const auto to_b = k < opposite ? minus(members[k]) : members[k];
+    const auto sum_a = hn::Load(d, a + shift + k) + hn::Load(d, a + factor) * members[k];
+    const auto sum_b = hn::Load(d, b + shift + k) + hn::Load(d, b + factor) * to_b;
+    hn::Store(sum_a, d, a + shift + k);
+    hn::Store(sum_b, d, b + shift + k);
+  }
 }
 
 #else
 
-/// Vector that contains a whole body (four doubles), or half of one on narrow instruction sets.
+/// Vector that contains a whole row of four doubles, or half of one on narrow instruction sets.
 using Row = hn::CappedTag<double, 4>;
 
-/// Members of the bodies whose rows (four doubles each) are given. row(k, from) is the part of row
-/// k that begins at member `from`: the whole row, or half of it if vectors have two lanes.
+/// Members of the rows (four doubles each) that are given. row(k, from) is the part of row k that
+/// begins at member `from`: the whole row, or half of it if vectors have two lanes.
 template <class Tag, class RowOf>
-HWY_INLINE Bodies<Tag> sort_rows(Tag d, const RowOf& row)
+HWY_INLINE Fours<Tag> sort_rows(Tag d, const RowOf& row)
 {
   if constexpr (hn::MaxLanes(d) == 8) {
     const auto r01 = hn::Combine(d, row(1, 0), row(0, 0));
@@ -99,38 +96,41 @@ HWY_INLINE Bodies<Tag> sort_rows(Tag d, const RowOf& row)
   }
 }
 
-/// Whole bodies are loaded and their members sorted into vectors, which takes fewer operations
-/// than gathering member by member.
+/// Whole rows are loaded and their members sorted into vectors, which takes fewer operations than
+/// gathering member by member.
 template <class Tag>
-HWY_INLINE Bodies<Tag> load_bodies(Tag d, const double* motion, const std::uint32_t* at)
+HWY_INLINE Fours<Tag> load_fours(Tag d, const double* from, const std::uint32_t* at)
 {
   return sort_rows(
-      d, [&](int k, std::size_t from) HWY_ATTR { return hn::Load(Row(), motion + at[k] + from); });
+      d, [&](int k, std::size_t part) HWY_ATTR { return hn::Load(Row(), from + at[k] + part); });
 }
 
-/// Bits that an exclusive or applies to a row to change the sign of the velocity only.
-alignas(32) constexpr double opposite_velocity[] = {-0.0, -0.0, 0.0, 0.0};
+/// Bits that an exclusive or applies to a row to change the sign of the first `count` members.
+template <std::size_t count>
+alignas(32) constexpr double opposite_first[] = {-0.0, count > 1 ? -0.0 : 0, count > 2 ? -0.0 : 0,
+                                                 0};
 
-HWY_INLINE Relative load_relative(D d, const double* motion, const std::uint32_t* i,
-                                  const std::uint32_t* j)
+/// The members at i plus those at j, with opposite signs for the first `opposite` of j.
+template <std::size_t opposite>
+HWY_INLINE Fours<Doubles> load_sums(Doubles d, const double* from, const std::uint32_t* i,
+                                    const std::uint32_t* j)
 {
-  const auto sums = sort_rows(d, [&](int k, std::size_t from) HWY_ATTR {
-    const auto other = hn::Load(Row(), motion + j[k] + from);
-    const auto sign = hn::Load(Row(), opposite_velocity + from);
-    return hn::Add(hn::Load(Row(), motion + i[k] + from), hn::Xor(other, sign));
+  return sort_rows(d, [&](int k, std::size_t part) HWY_ATTR {
+    const auto other = hn::Load(Row(), from + j[k] + part);
+    const auto sign = hn::Load(Row(), opposite_first<opposite> + part);
+    return hn::Add(hn::Load(Row(), from + i[k] + part), hn::Xor(other, sign));
   });
-  return {sums.vx, sums.vy, sums.inverse_mass};
 }
 
-/// Sorts the members of bodies into rows, one per body. Calls use(part, from, k) with the part of
+/// Sorts members into rows. Calls use(part, from, k) with the part of
 /// row k that begins at its member `from`: the whole row, or half of it if vectors have two lanes.
 template <class Tag, class Use>
-HWY_INLINE void for_each_row(Tag d, const Bodies<Tag>& b, const Use& use)
+HWY_INLINE void for_each_row(Tag d, const Fours<Tag>& members, const Use& use)
 {
-  const auto v_low = hn::InterleaveLower(d, b.vx, b.vy);
-  const auto v_high = hn::InterleaveUpper(d, b.vx, b.vy);
-  const auto s_low = hn::InterleaveLower(d, b.rim_speed, b.inverse_mass);
-  const auto s_high = hn::InterleaveUpper(d, b.rim_speed, b.inverse_mass);
+  const auto v_low = hn::InterleaveLower(d, members[0], members[1]);
+  const auto v_high = hn::InterleaveUpper(d, members[0], members[1]);
+  const auto s_low = hn::InterleaveLower(d, members[2], members[3]);
+  const auto s_high = hn::InterleaveUpper(d, members[2], members[3]);
   if constexpr (hn::MaxLanes(d) == 8) {
     const hn::Half<Tag> h;
     const auto r04 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(s_low), v_low);
@@ -152,37 +152,39 @@ HWY_INLINE void for_each_row(Tag d, const Bodies<Tag>& b, const Use& use)
   }
 }
 
-/// Inverse of load_bodies(). Two lanes with the same immobile body write the same numbers.
+/// Inverse of load_fours(). Two lanes with the same immobile body write the same numbers.
 template <class Tag>
-HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, double* motion, const std::uint32_t* at)
+HWY_INLINE void store_fours(Tag d, const Fours<Tag>& members, double* to, const std::uint32_t* at)
 {
-  for_each_row(d, b, [&](auto part, std::size_t from, int k) HWY_ATTR {
-    hn::Store(part, Row(), motion + at[k] + from);
+  for_each_row(d, members, [&](auto row, std::size_t part, int k) HWY_ATTR {
+    hn::Store(row, Row(), to + at[k] + part);
   });
 }
 
-/// Applies the impulses (px, py) to bodies i and the opposite impulses to bodies j, and subtracts
-/// `spin` times the inverse mass from both rim speeds. Sorting impulses into rows takes half as
-/// many operations as sorting bodies into vectors.
-HWY_INLINE void push_bodies(D d, Vector px, Vector py, Vector spin, double* motion,
-                            const std::uint32_t* i, const std::uint32_t* j)
+/// Adds `members` times the number at `factor` of each row to the rows at i, and with opposite
+/// signs of the first `opposite` members to the rows at j. Rows begin `shift` numbers later.
+/// Sorting `members` into rows takes half as many operations as sorting the rows into members.
+template <std::size_t factor, std::size_t opposite>
+HWY_INLINE void add_products(Doubles d, const Fours<Doubles>& members, std::size_t shift,
+                             double* to, const std::uint32_t* i, const std::uint32_t* j)
 {
-  const auto add = [&](auto part, std::size_t from, double* body) HWY_ATTR {
-    const auto inverse_mass = hn::Set(Row(), body[3]);
-    const auto now = hn::Load(Row(), body + from);
-    hn::Store(hn::Add(now, hn::Mul(inverse_mass, part)), Row(), body + from);
+  const auto add = [&](auto row, std::size_t part, double* body) HWY_ATTR {
+    const auto times = hn::Set(Row(), body[factor]);
+    const auto now = hn::Load(Row(), body + shift + part);
+    hn::Store(hn::Add(now, hn::Mul(times, row)), Row(), body + shift + part);
   };
-  for_each_row(d, Bodies<D>{px, py, hn::Neg(spin), hn::Zero(d)},
-               [&](auto part, std::size_t from, int k) HWY_ATTR {
-                 add(part, from, motion + i[k]);
-                 add(hn::Xor(part, hn::Load(Row(), opposite_velocity + from)), from, motion + j[k]);
-               });
+  for_each_row(d, members, [&](auto row, std::size_t part, int k) HWY_ATTR {
+    add(row, part, to + i[k]);
+    if constexpr (opposite > 0)
+      row = hn::Xor(row, hn::Load(Row(), opposite_first<opposite> + part));
+    add(row, part, to + j[k]);
+  });
 }
 
 /// Transposes four by four floats within each block of 128 bits of four vectors.
 template <class Tag>
-HWY_INLINE Bodies<Tag> transpose(Tag d, hn::Vec<Tag> r0, hn::Vec<Tag> r1, hn::Vec<Tag> r2,
-                                 hn::Vec<Tag> r3)
+HWY_INLINE Fours<Tag> transpose(Tag d, hn::Vec<Tag> r0, hn::Vec<Tag> r1, hn::Vec<Tag> r2,
+                                hn::Vec<Tag> r3)
 {
   const hn::Repartition<double, Tag> twos;
   const auto low01 = hn::BitCast(twos, hn::InterleaveLower(d, r0, r1));
@@ -198,9 +200,9 @@ HWY_INLINE Bodies<Tag> transpose(Tag d, hn::Vec<Tag> r0, hn::Vec<Tag> r1, hn::Ve
 using FourFloats = hn::FixedTag<float, 4>;
 
 template <class Tag>
-HWY_INLINE Bodies<Tag> load_bodies(Tag d, const float* motion, const std::uint32_t* at)
+HWY_INLINE Fours<Tag> load_fours(Tag d, const float* from, const std::uint32_t* at)
 {
-  const auto body = [&](int k) HWY_ATTR { return hn::Load(FourFloats(), motion + at[k]); };
+  const auto body = [&](int k) HWY_ATTR { return hn::Load(FourFloats(), from + at[k]); };
   const auto row = [&](int k) HWY_ATTR {
     if constexpr (hn::MaxLanes(d) == 4) {
       return body(k);
@@ -213,17 +215,14 @@ HWY_INLINE Bodies<Tag> load_bodies(Tag d, const float* motion, const std::uint32
                          hn::Combine(h, body(k + 4), body(k)));
     }
   };
-  auto bodies = transpose(d, row(0), row(1), row(2), row(3));
-  bodies.inverse_mass = hn::Zero(d);  // a constant, so that no register is needed
-  return bodies;
+  return transpose(d, row(0), row(1), row(2), row(3));
 }
 
 template <class Tag>
-HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, float* motion, const std::uint32_t* at)
+HWY_INLINE void store_fours(Tag d, const Fours<Tag>& members, float* to, const std::uint32_t* at)
 {
-  const auto rows = transpose(d, b.vx, b.vy, b.rim_speed, b.inverse_mass);
-  const auto store = [&](auto part, int k)
-                         HWY_ATTR { hn::Store(part, FourFloats(), motion + at[k]); };
+  const auto rows = transpose(d, members[0], members[1], members[2], members[3]);
+  const auto store = [&](auto part, int k) HWY_ATTR { hn::Store(part, FourFloats(), to + at[k]); };
   const auto store_row = [&](hn::Vec<Tag> row, int k) HWY_ATTR {
     if constexpr (hn::MaxLanes(d) == 4) {
       store(row, k);
@@ -239,13 +238,78 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<Tag>& b, float* motion, const s
       store(hn::UpperHalf(FourFloats(), high), k + 12);
     }
   };
-  store_row(rows.vx, 0);
-  store_row(rows.vy, 1);
-  store_row(rows.rim_speed, 2);
-  store_row(rows.inverse_mass, 3);
+  store_row(rows[0], 0);
+  store_row(rows[1], 1);
+  store_row(rows[2], 2);
+  store_row(rows[3], 3);
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
+
+/// Members of several MotionOf, one body per lane; with floats the inverse mass is 0.
+template <int D, class V>
+struct Bodies {
+  Along<D, V> v;
+  V inverse_mass;
+  Turning<D, V> rim;
+};
+
+/// `at`: offsets of the bodies, in numbers.
+template <int D, class Tag, class Real>
+HWY_INLINE Bodies<D, hn::Vec<Tag>> load_bodies(Tag d, const Real* motion, const std::uint32_t* at)
+{
+  auto first = load_fours(d, motion, at);
+  // A constant, so that no register is needed.
+  if constexpr (std::is_same_v<Real, float>) first[D] = hn::Zero(d);
+  if constexpr (D == 2) {
+    return {{first[0], first[1]}, first[2], {first[3]}};
+  } else {
+    const auto second = load_fours(d, motion + 4, at);
+    return {{first[0], first[1], first[2]}, first[3], {second[0], second[1], second[2]}};
+  }
+}
+
+template <int D, class Tag, class Real>
+HWY_INLINE void store_bodies(Tag d, const Bodies<D, hn::Vec<Tag>>& b, Real* motion,
+                             const std::uint32_t* at)
+{
+  if constexpr (D == 2) {
+    store_fours(d, Fours<Tag>{b.v[0], b.v[1], b.inverse_mass, b.rim[0]}, motion, at);
+  } else {
+    store_fours(d, Fours<Tag>{b.v[0], b.v[1], b.v[2], b.inverse_mass}, motion, at);
+    store_fours(d, Fours<Tag>{b.rim[0], b.rim[1], b.rim[2], hn::Zero(d)}, motion + 4, at);
+  }
+}
+
+/// Velocity of bodies i relative to bodies j, and the sum of their inverse masses.
+template <int D>
+struct Relative {
+  Along<D, Vector> v;
+  Vector inverse_mass;
+};
+
+template <int D>
+HWY_INLINE Relative<D> load_relative(Doubles d, const double* motion, const std::uint32_t* i,
+                                     const std::uint32_t* j)
+{
+  const auto sums = load_sums<D>(d, motion, i, j);
+  return {components<D>([&](std::size_t k) HWY_ATTR { return sums[k]; }), sums[D]};
+}
+
+/// Applies the impulses p to bodies i and the opposite impulses to bodies j, and subtracts `spin`
+/// times the inverse mass from both rim velocities.
+template <int D>
+HWY_INLINE void push_bodies(Doubles d, const Along<D, Vector>& p, const Turning<D, Vector>& spin,
+                            double* motion, const std::uint32_t* i, const std::uint32_t* j)
+{
+  const auto zero = hn::Zero(d);
+  if constexpr (D == 2) {
+    add_products<2, 2>(d, {p[0], p[1], zero, minus(spin[0])}, 0, motion, i, j);
+  } else {
+    add_products<3, 3>(d, {p[0], p[1], p[2], zero}, 0, motion, i, j);
+    add_products<3, 0>(d, {minus(spin[0]), minus(spin[1]), minus(spin[2]), zero}, 4, motion, i, j);
+  }
+}
 
 /// Pairs of doubles that are neighbours in memory, one pair per lane.
 struct Twos {
@@ -255,14 +319,14 @@ struct Twos {
 #if HWY_TARGET == HWY_SCALAR
 
 /// Loads two neighbouring doubles per lane, the first from `from + at[lane]`.
-HWY_INLINE Twos load_twos(D d, const double* from, const std::uint32_t* at)
+HWY_INLINE Twos load_twos(Doubles d, const double* from, const std::uint32_t* at)
 {
   return {hn::Load(d, from + *at), hn::Load(d, from + *at + 1)};
 }
 
 /// Per lane, two doubles at `from + scale i` minus two doubles at `from + scale j`.
 template <std::size_t scale>
-HWY_INLINE Twos load_differences(D d, const double* from, const std::uint32_t* i,
+HWY_INLINE Twos load_differences(Doubles d, const double* from, const std::uint32_t* i,
                                  const std::uint32_t* j)
 {
   const double *a = from + scale * *i, *b = from + scale * *j;
@@ -270,7 +334,7 @@ HWY_INLINE Twos load_differences(D d, const double* from, const std::uint32_t* i
 }
 
 /// Loads consecutive pairs of doubles, one pair per lane.
-HWY_INLINE Twos load_next_twos(D d, const double* from)
+HWY_INLINE Twos load_next_twos(Doubles d, const double* from)
 {
   return {hn::Load(d, from), hn::Load(d, from + 1)};
 }

@@ -19,19 +19,27 @@ constexpr std::uint32_t lanes_of = 64 / sizeof(Real);
 constexpr std::uint32_t block_lanes = lanes_of<double>;
 
 /// Members of a contact: WholeImpulses in double precision, Increments in single precision.
-template <class Real, class Number>
-using MembersOf =
-    std::conditional_t<std::is_same_v<Real, double>, WholeImpulses<Number>, Increments<Number>>;
+template <int D, class Real, class Number>
+using MembersOf = std::conditional_t<std::is_same_v<Real, double>, WholeImpulses<D, Number>,
+                                     Increments<D, Number>>;
+
+template <class Real>
+using LanesOf = std::array<Real, lanes_of<Real>>;
+using Lanes = LanesOf<double>;
 
 /// Block of contacts, one per lane: eight in double, sixteen in single precision. No mobile body
 /// appears in two contacts of a block, so all may be relaxed at the same time.
-template <class Real>
-struct alignas(64) BlockOf : MembersOf<Real, std::array<Real, lanes_of<Real>>> {
-  using Lanes = std::array<Real, lanes_of<Real>>;
-  /// Offsets of the two bodies of each contact in the array of MotionOf<Real>, in numbers.
+template <int D, class Real>
+struct alignas(64) BlockOf : MembersOf<D, Real, LanesOf<Real>> {
+  /// Offsets of the two bodies of each contact in the array of MotionOf<D, Real>, in numbers.
   std::array<std::uint32_t, lanes_of<Real>> i, j;
 };
-using ContactBlock = BlockOf<double>;
+template <int D>
+using ContactBlock = BlockOf<D, double>;
+
+/// Numbers of a body, in either precision.
+template <int D>
+constexpr std::uint32_t numbers_per_body = sizeof(Motion<D>) / sizeof(double);
 
 /// Half-open range [begin, end) of indices of bodies.
 struct Range {
@@ -40,15 +48,16 @@ struct Range {
 
 /// Blocks in the order in which they are relaxed, divided into runs. No two blocks of a run share a
 /// mobile body, so no block waits for results of another block of its run.
-template <class Real>
+template <int D, class Real>
 struct RunsOf {
-  std::span<BlockOf<Real>> blocks;
+  std::span<BlockOf<D, Real>> blocks;
   std::span<const std::uint32_t> ends;  // end of each run, index of a block
   /// Bodies of this strip (pair_search.hpp), if the scene is cut into strips. The ranges of all
   /// strips together include every body that contacts can move; contacts involve only bodies of
   /// their own strip and of its neighbours.
   Range bodies{};
 };
-using BlockRuns = RunsOf<double>;
+template <int D>
+using BlockRuns = RunsOf<D, double>;
 
 }  // namespace grseg

@@ -18,16 +18,16 @@ namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// True for two discs that act. (dx, dy): vector between their centres after `forecast` steps of
+/// True for two grains that act. `apart`: vector between their centres after `forecast` steps of
 /// free flight (contact_law.hpp), m; reach = r_i + r_j.
-template <class V>
-HWY_INLINE auto acts(V dx, V dy, V reach, V margin)
+template <class V, std::size_t D>
+HWY_INLINE auto acts(const std::array<V, D>& apart, V reach, V margin)
 {
   const V limit = reach + margin;
-  return dx * dx + dy * dy <= limit * limit;
+  return dot(apart, apart) <= limit * limit;
 }
 
-/// True for a disc that acts on a wall. `distance` of its centre from the wall after `forecast`
+/// True for a grain that acts on a wall. `distance` of its centre from the wall after `forecast`
 /// steps of free flight, m; `reach` is its radius.
 template <class V>
 HWY_INLINE auto acts_on_wall(V distance, V reach, V margin)
@@ -36,31 +36,32 @@ HWY_INLINE auto acts_on_wall(V distance, V reach, V margin)
 }
 
 /// Unit vector from j to i, and distance of the centres, m: gap = distance - reach.
-template <class V>
+template <int D, class V>
 struct Normal {
-  V nx, ny, distance;
+  Along<D, V> n;
+  V distance;
 };
 
-/// Normal of two discs. (dx, dy): vector between their centres at mid-step, m. The result is
+/// Normal of two grains. `apart`: vector between their centres at mid-step, m. The result is
 /// arbitrary but finite if `used` is false.
-template <class V>
-HWY_INLINE Normal<V> normal_of_discs(V dx, V dy, MaskOf<V> used)
+template <class V, std::size_t D>
+HWY_INLINE Normal<D, V> normal_of_grains(const std::array<V, D>& apart, MaskOf<V> used)
 {
-  const V one = number<V>(1), distance = root(dx * dx + dy * dy);
+  const V one = number<V>(1), distance = root(dot(apart, apart));
   const V inverse = one / choose(used, distance, one);
-  return {dx * inverse, dy * inverse, distance};
+  return {inverse * apart, distance};
 }
 
-/// Normal of a disc at a wall with normal (nx, ny). (dx, dy): vector from a point of the wall to
-/// the centre of the disc, m.
-template <class V>
-HWY_INLINE Normal<V> normal_of_wall(V dx, V dy, V nx, V ny)
+/// Normal of a grain at a wall with normal n. `apart`: vector from a point of the wall to the
+/// centre of the grain, m.
+template <class V, std::size_t D>
+HWY_INLINE Normal<D, V> normal_of_wall(const std::array<V, D>& apart, const std::array<V, D>& n)
 {
-  return {nx, ny, dx * nx + dy * ny};
+  return {n, dot(apart, n)};
 }
 
 /// Effective masses 1/W_nn (from the sum of inverse masses; 0 if `used` is false) and 1/W_tt, kg;
-/// W_nt = 0 for discs.
+/// W_nt = 0 for discs and spheres.
 template <class V>
 HWY_INLINE V normal_mass(V inverse_masses, MaskOf<V> used)
 {
@@ -68,9 +69,9 @@ HWY_INLINE V normal_mass(V inverse_masses, MaskOf<V> used)
   return choose(used, one / choose(used, inverse_masses, one));
 }
 template <class V>
-HWY_INLINE V tangential_mass(V normal_mass, V kappa, double rim_factor = disc_rim_factor)
+HWY_INLINE V tangential_mass(V normal_mass, V kappa, double factor)
 {
-  return normal_mass / (number<V>(1) + number<V>(rim_factor) * (kappa * kappa));
+  return normal_mass / (number<V>(1) + number<V>(factor) * (kappa * kappa));
 }
 
 /// Approach, -separation (m/s), or 0 if it may be an error of the solver; `load` = W_nn p_n (m/s).
@@ -112,170 +113,251 @@ HWY_INLINE Rebound<V> rebound_of(V gap, V separation, V load, V remembered, doub
           choose(both(slowed_down_now, newcomer), approach)};
 }
 
-/// Ratio W_tt/W_nn of discs that may rotate.
-template <class V>
+/// Ratio W_tt/W_nn of grains that may rotate.
+template <int D, class V>
 HWY_INLINE V w_ratio(V kappa)
 {
-  return number<V>(1) + number<V>(disc_rim_factor) * kappa * kappa;
+  return number<V>(1) + number<V>(rim_factor<D>) * kappa * kappa;
+}
+
+// Differences between discs, whose tangential vectors have one component along t = (-n_y, n_x), and
+// spheres.
+
+/// The part of `velocity` in the tangent plane; `along_n` is its part along n.
+template <class V>
+HWY_INLINE Turning<2, V> tangential_part(const Along<2, V>& velocity, const Along<2, V>& n, V)
+{
+  return {velocity[1] * n[0] - velocity[0] * n[1]};
+}
+template <class V>
+HWY_INLINE Turning<3, V> tangential_part(const Along<3, V>& velocity, const Along<3, V>& n,
+                                         V along_n)
+{
+  return velocity - along_n * n;
+}
+/// rim x n: velocity of a surface point that rotates, in the tangent plane.
+template <class V>
+HWY_INLINE Turning<2, V> turned(const Turning<2, V>& rim, const Along<2, V>&)
+{
+  return rim;
+}
+template <class V>
+HWY_INLINE Turning<3, V> turned(const Turning<3, V>& rim, const Along<3, V>& n)
+{
+  return cross(rim, n);
+}
+/// n x tangential: direction in which a tangential impulse turns both bodies, apart from the sign.
+template <class V>
+HWY_INLINE Turning<2, V> turning(const Along<2, V>&, const Turning<2, V>& tangential)
+{
+  return tangential;
+}
+template <class V>
+HWY_INLINE Turning<3, V> turning(const Along<3, V>& n, const Turning<3, V>& tangential)
+{
+  return cross(n, tangential);
+}
+/// normal n + tangential, in space.
+template <class V>
+HWY_INLINE Along<2, V> in_space(const Along<2, V>& n, V normal, const Turning<2, V>& tangential)
+{
+  return {normal * n[0] - tangential[0] * n[1], normal * n[1] + tangential[0] * n[0]};
+}
+template <class V>
+HWY_INLINE Along<3, V> in_space(const Along<3, V>& n, V normal, const Turning<3, V>& tangential)
+{
+  return normal * n + tangential;
+}
+
+/// `vector`, shortened to the length `most` if it is longer.
+template <class V>
+HWY_INLINE Turning<2, V> within(const Turning<2, V>& vector, V most)
+{
+  return {smaller(larger(vector[0], minus(most)), most)};
+}
+template <class V>
+HWY_INLINE Turning<3, V> within(const Turning<3, V>& vector, V most)
+{
+  const V squared = dot(vector, vector), one = number<V>(1);
+  const auto longer = squared > most * most;
+  return choose(longer, most / root(choose(longer, squared, one)), one) * vector;
+}
+
+/// The part of a tangential impulse in the tangent plane of n: impulses of the previous step belong
+/// to another plane, and single precision does not stay in one.
+template <class V>
+HWY_INLINE Turning<2, V> in_plane(const Turning<2, V>& t, const Along<2, V>&)
+{
+  return t;
+}
+template <class V>
+HWY_INLINE Turning<3, V> in_plane(const Turning<3, V>& t, const Along<3, V>& n)
+{
+  return t - dot(t, n) * n;
 }
 
 /// Effect of impulses along the normal and the tangent. Multiplied by the inverse mass of the body,
-/// (px, py) is added to the velocity of i and subtracted from the velocity of j, and `spin` is
-/// subtracted from both rim speeds.
-template <class V>
+/// `p` is added to the velocity of i and subtracted from the velocity of j, and `spin` is
+/// subtracted from both rim velocities.
+template <int D, class V>
 struct Push {
-  V px, py, spin;
+  Along<D, V> p;
+  Turning<D, V> spin;
 };
-template <Effects with, class V>
-HWY_INLINE Push<V> push_of(V nx, V ny, V kappa, V normal, V tangential)
+template <Effects with, class V, std::size_t D, std::size_t T>
+HWY_INLINE Push<D, V> push_of(const std::array<V, D>& n, V kappa, V normal,
+                              const std::array<V, T>& tangential)
 {
-  Push<V> p{normal * nx, normal * ny, number<V>(0)};
-  if constexpr (with.friction) {
-    p.px = p.px - tangential * ny;
-    p.py = p.py + tangential * nx;
-  }
-  if constexpr (with.friction && with.rotation)
-    p.spin = number<V>(disc_rim_factor) * kappa * tangential;
-  return p;
+  if constexpr (!with.friction) return {normal * n, number<V>(0) * tangential};
+  const auto p = in_space(n, normal, tangential);
+  if constexpr (!with.rotation) return {p, number<V>(0) * tangential};
+  return {p, (number<V>(rim_factor<D>) * kappa) * turning(n, tangential)};
 }
-template <Effects with, class Body, class V>
-HWY_INLINE void push(Body& a, Body& b, V weight_a, V weight_b, const Push<V>& p)
+template <Effects with, class Body, int D, class V>
+HWY_INLINE void push(Body& a, Body& b, V weight_a, V weight_b, const Push<D, V>& p)
 {
   if constexpr (with.friction && with.rotation) {
-    a.rim_speed = a.rim_speed - weight_a * p.spin;
-    b.rim_speed = b.rim_speed - weight_b * p.spin;
+    a.rim = a.rim - weight_a * p.spin;
+    b.rim = b.rim - weight_b * p.spin;
   }
-  a.vx = a.vx + weight_a * p.px;
-  a.vy = a.vy + weight_a * p.py;
-  b.vx = b.vx - weight_b * p.px;
-  b.vy = b.vy - weight_b * p.py;
+  a.v = a.v + weight_a * p.p;
+  b.v = b.v - weight_b * p.p;
 }
 
 /// Tangential velocity of the surface of i relative to the surface of j, m/s; friction opposes it.
-template <Effects with, class Contacts, class Body, class V>
-HWY_INLINE V sliding_of(const Contacts& c, const Body& a, const Body& b, V dvx, V dvy)
+/// `dv`: relative velocity of the centres, and `separation` its part along n.
+template <Effects with, class Contacts, class Body, class V, std::size_t D>
+HWY_INLINE Turning<D, V> sliding_of(const Contacts& c, const Body& a, const Body& b,
+                                    const std::array<V, D>& dv, V separation)
 {
-  const V sliding = dvy * c.nx - dvx * c.ny;
+  const auto sliding = tangential_part(dv, c.n, separation);
   if constexpr (!with.rotation) return sliding;
-  return sliding - c.kappa * (a.rim_speed + b.rim_speed);
+  return sliding - c.kappa * turned(a.rim + b.rim, c.n);
 }
-
-/// Least and largest impulse along a tangent.
-template <class V>
-struct Limits {
-  V least, most;
-};
 
 // The law for WholeImpulses, then for Increments. The order of each sum makes the chain of
 // operations on velocities as short as possible.
 
 /// Normal impulse that would make the separation velocity equal to the rebound.
-template <Effects with, class V>
-HWY_INLINE V rebounding(const WholeImpulses<V>& c, V separation)
+template <Effects with, int D, class V>
+HWY_INLINE V rebounding(const WholeImpulses<D, V>& c, V separation)
 {
   const V excess = with.restitution ? separation - c.rebound : separation;
   return c.impulse_n - c.mass_n * excess;
 }
-template <class V>
-HWY_INLINE V least_impulse(const WholeImpulses<V>&)
+template <int D, class V>
+HWY_INLINE V least_impulse(const WholeImpulses<D, V>&)
 {
   return number<V>(0);
 }
-/// Tangential impulse that would stop sliding; then Coulomb's limits.
-template <class V>
-HWY_INLINE V sticking(const WholeImpulses<V>& c, V sliding)
+/// Tangential impulse that would stop sliding; then that impulse within Coulomb's limit.
+template <int D, class V>
+HWY_INLINE Turning<D, V> sticking(const WholeImpulses<D, V>& c, const Turning<D, V>& sliding)
 {
   return c.impulse_t - c.mass_t * sliding;
 }
-template <class V>
-HWY_INLINE Limits<V> cone(const WholeImpulses<V>& c, V friction)
+template <int D, class V>
+HWY_INLINE Turning<D, V> within_cone(const WholeImpulses<D, V>& c, const Turning<D, V>& wanted,
+                                     V friction)
 {
-  const V limit = friction * c.impulse_n;
-  return {minus(limit), limit};
+  return within(wanted, friction * c.impulse_n);
 }
-template <Effects with, class Body, class V>
-HWY_INLINE void push(const WholeImpulses<V>&, Body& a, Body& b, const Push<V>& p)
+template <Effects with, class Body, int D, class V>
+HWY_INLINE void push(const WholeImpulses<D, V>&, Body& a, Body& b, const Push<D, V>& p)
 {
   push<with>(a, b, a.inverse_mass, b.inverse_mass, p);
 }
-template <Effects with, class Body, class V>
-HWY_INLINE Relaxed<V> relaxed(const WholeImpulses<V>& c, const Body& a, const Body& b, V change_n,
-                              V change_t)
+template <Effects with, class Body, int D, class V>
+HWY_INLINE Relaxed<D, V> relaxed(const WholeImpulses<D, V>& c, const Body& a, const Body& b,
+                                 V change_n, const Turning<D, V>& change_t)
 {
   const V w_nn = a.inverse_mass + b.inverse_mass;
-  const V w_tt = with.rotation ? w_nn * w_ratio(c.kappa) : w_nn;
-  return {magnitude(change_n) * w_nn, c.impulse_n * w_nn, magnitude(change_t) * w_tt,
-          c.impulse_t * w_tt};
+  const V w_tt = with.rotation ? w_nn * w_ratio<D>(c.kappa) : w_nn;
+  return {magnitude(change_n) * w_nn, c.impulse_n * w_nn, w_tt * change_t, w_tt * c.impulse_t};
 }
 
-template <Effects with, class V>
-HWY_INLINE V rebounding(const Increments<V>& c, V separation)
+template <Effects with, int D, class V>
+HWY_INLINE V rebounding(const Increments<D, V>& c, V separation)
 {
   const V aim = with.restitution ? c.impulse_n + c.rebound : c.impulse_n;
   return aim - separation;
 }
-template <class V>
-HWY_INLINE V least_impulse(const Increments<V>& c)
+template <int D, class V>
+HWY_INLINE V least_impulse(const Increments<D, V>& c)
 {
   return minus(c.base_n);
 }
-template <class V>
-HWY_INLINE V sticking(const Increments<V>& c, V sliding)
+template <int D, class V>
+HWY_INLINE Turning<D, V> sticking(const Increments<D, V>& c, const Turning<D, V>& sliding)
 {
   return c.impulse_t - c.mass_ratio * sliding;
 }
-template <class V>
-HWY_INLINE Limits<V> cone(const Increments<V>& c, V friction)
+template <int D, class V>
+HWY_INLINE Turning<D, V> within_cone(const Increments<D, V>& c, const Turning<D, V>& wanted,
+                                     V friction)
 {
   const V held = friction * c.base_n, more = friction * c.impulse_n;
-  return {(minus(held) - c.base_t) - more, (held - c.base_t) + more};
+  if constexpr (D == 2) {
+    const V base = c.base_t[0];
+    return {smaller(larger(wanted[0], (minus(held) - base) - more), (held - base) + more)};
+  } else {
+    // A sticking contact keeps `wanted` to the last bit: increments are small beside the base.
+    const auto whole = c.base_t + wanted;
+    const V limit = held + more, squared = dot(whole, whole);
+    const auto slips = squared > limit * limit;
+    const auto kept = (limit / root(choose(slips, squared, number<V>(1)))) * whole - c.base_t;
+    return components<3>([&](std::size_t k) HWY_ATTR { return choose(slips, kept[k], wanted[k]); });
+  }
 }
-template <Effects with, class Body, class V>
-HWY_INLINE void push(const Increments<V>& c, Body& a, Body& b, const Push<V>& p)
+template <Effects with, class Body, int D, class V>
+HWY_INLINE void push(const Increments<D, V>& c, Body& a, Body& b, const Push<D, V>& p)
 {
   push<with>(a, b, c.weight_i, c.weight_j, p);
 }
-template <Effects with, class Body, class V>
-HWY_INLINE Relaxed<V> relaxed(const Increments<V>& c, const Body&, const Body&, V change_n,
-                              V change_t)
+template <Effects with, class Body, int D, class V>
+HWY_INLINE Relaxed<D, V> relaxed(const Increments<D, V>& c, const Body&, const Body&, V change_n,
+                                 const Turning<D, V>& change_t)
 {
-  const V t = magnitude(change_t), level_t = c.base_t + c.impulse_t, ratio = w_ratio(c.kappa);
-  return {magnitude(change_n), c.base_n + c.impulse_n, with.rotation ? t * ratio : t,
-          with.rotation ? level_t * ratio : level_t};
+  const auto level_t = c.base_t + c.impulse_t;
+  const V level_n = c.base_n + c.impulse_n;
+  if constexpr (!with.rotation) return {magnitude(change_n), level_n, change_t, level_t};
+  const V ratio = w_ratio<D>(c.kappa);
+  return {magnitude(change_n), level_n, ratio * change_t, ratio * level_t};
 }
 
 /// Makes the contact of a and b obey Signorini, Newton and Coulomb while all other contacts keep
-/// their impulses. W_nt = 0 for discs, so both components are solved exactly, the normal one first.
+/// their impulses. W_nt = 0, and W_tt is isotropic in the tangent plane, so both parts are solved
+/// exactly, the normal one first.
 template <Effects with, class Contacts, class Body, class V>
-HWY_INLINE Relaxed<V> relax(Contacts& c, Body& a, Body& b, V friction)
+HWY_INLINE auto relax(Contacts& c, Body& a, Body& b, V friction)
 {
-  const V dvx = a.vx - b.vx, dvy = a.vy - b.vy;
-  const V before_n = c.impulse_n, before_t = c.impulse_t;
-  c.impulse_n = larger(rebounding<with>(c, dvx * c.nx + dvy * c.ny), least_impulse(c));
-  if constexpr (with.friction) {
-    const V sliding = sliding_of<with>(c, a, b, dvx, dvy);
-    const auto [least, most] = cone(c, friction);
-    c.impulse_t = smaller(larger(sticking(c, sliding), least), most);
-  }
-  const V change_n = c.impulse_n - before_n, change_t = c.impulse_t - before_t;
-  const auto p = push_of<with>(c.nx, c.ny, c.kappa, change_n, change_t);
-  push<with>(c, a, b, p);
+  const auto dv = a.v - b.v;
+  const V separation = dot(dv, c.n), before_n = c.impulse_n;
+  const auto before_t = c.impulse_t;
+  c.impulse_n = larger(rebounding<with>(c, separation), least_impulse(c));
+  if constexpr (with.friction)
+    c.impulse_t = within_cone(c, sticking(c, sliding_of<with>(c, a, b, dv, separation)), friction);
+  const V change_n = c.impulse_n - before_n;
+  const auto change_t = c.impulse_t - before_t;
+  push<with>(c, a, b, push_of<with>(c.n, c.kappa, change_n, change_t));
   return relaxed<with>(c, a, b, change_n, change_t);
 }
 
 /// Loads as many contacts of a block as a vector has lanes, from `lane` on.
-HWY_INLINE WholeImpulses<Vector> load(const ContactBlock& b, std::size_t lane)
+template <int D>
+HWY_INLINE WholeImpulses<D, Vector> load(const ContactBlock<D>& b, std::size_t lane)
 {
-  return {load(b.nx, lane),        load(b.ny, lane),       load(b.kappa, lane),
-          load(b.mass_n, lane),    load(b.mass_t, lane),   load(b.rebound, lane),
-          load(b.impulse_n, lane), load(b.impulse_t, lane)};
+  return {load(b.n, lane),        load(b.kappa, lane),   load(b.mass_n, lane),
+          load(b.mass_t, lane),   load(b.rebound, lane), load(b.impulse_n, lane),
+          load(b.impulse_t, lane)};
 }
-HWY_INLINE Increments<hn::Vec<TagOf<float>>> load(const BlockOf<float>& b, std::size_t lane)
+template <int D>
+HWY_INLINE Increments<D, hn::Vec<TagOf<float>>> load(const BlockOf<D, float>& b, std::size_t lane)
 {
-  return {load(b.nx, lane),        load(b.ny, lane),       load(b.kappa, lane),
-          load(b.weight_i, lane),  load(b.weight_j, lane), load(b.mass_ratio, lane),
-          load(b.rebound, lane),   load(b.base_n, lane),   load(b.base_t, lane),
-          load(b.impulse_n, lane), load(b.impulse_t, lane)};
+  return {load(b.n, lane),        load(b.kappa, lane),      load(b.weight_i, lane),
+          load(b.weight_j, lane), load(b.mass_ratio, lane), load(b.rebound, lane),
+          load(b.base_n, lane),   load(b.base_t, lane),     load(b.impulse_n, lane),
+          load(b.impulse_t, lane)};
 }
 
 /// Calls use<with>() with the effects that applying impulses depends on: friction and rotation.
@@ -291,13 +373,12 @@ HWY_INLINE void with_effects(Effects e, const Use& use)
 }
 
 /// Applies impulses, along normals and tangents, to the bodies of the contacts from `lane` on.
-template <Effects with>
-HWY_INLINE void apply(const ContactBlock& c, std::size_t lane, Vector normal, Vector tangential,
-                      double* motion)
+template <Effects with, int D>
+HWY_INLINE void apply(const ContactBlock<D>& c, std::size_t lane, Vector normal,
+                      const Turning<D, Vector>& tangential, double* motion)
 {
-  const auto p =
-      push_of<with>(load(c.nx, lane), load(c.ny, lane), load(c.kappa, lane), normal, tangential);
-  push_bodies(D(), p.px, p.py, p.spin, motion, &c.i[lane], &c.j[lane]);
+  const auto p = push_of<with>(load(c.n, lane), load(c.kappa, lane), normal, tangential);
+  push_bodies<D>(Doubles(), p.p, p.spin, motion, &c.i[lane], &c.j[lane]);
 }
 
 }  // namespace

@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "formats/core/frame.hpp"
+
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 /// The contact laws: Signorini's condition, Newton's restitution and Coulomb's friction between
-/// rigid discs, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean, Comput.
-/// Methods Appl. Mech. Eng. 177, 235, 1999). This file states the laws in words and defines their
-/// variables; contact_law-inl.hpp has the equations, for one pair or for one pair per vector lane.
+/// rigid discs or spheres, in Moreau's time stepping (Moreau, Eur. J. Mech. A 13, 93, 1994; Jean,
+/// Comput. Methods Appl. Mech. Eng. 177, 235, 1999). This file states the laws in words and defines
+/// their variables; contact_law-inl.hpp has the equations, for one pair or for one pair per vector
+/// lane.
 ///
 /// A step of length h leads from positions x and velocities v to v+ and x+ = x + h (v + v+)/2.
 /// Contacts are found in the middle of the step, x_m = x + h v/2. For a pair i, j:
 ///
-///   n, t      unit vector from j to i at mid-step (of a wall: its normal), and t = (-n_y, n_x)
-///   gap       |x_m,i - x_m,j| - (r_i + r_j), m; below 0 the discs overlap
+///   n         unit vector from j to i at mid-step (of a wall: its normal)
+///   gap       |x_m,i - x_m,j| - (r_i + r_j), m; below 0 the grains overlap
 ///   u, u+     separation velocity n . (v_i - v_j) before and after the step, m/s
 ///   approach  -u; negative if the grains move apart
-///   p_n, p_t  impulse on i over the step, along n and t, kg m/s
+///   p_n, p_t  impulse on i over the step, along n and in the tangent plane, kg m/s. For discs p_t
+///             is a number, along t = (-n_y, n_x); for spheres it is a vector in space
 ///   W         matrix of the changes of relative velocities by impulses; W_nn: of u by p_n
 ///
 /// A pair "acts" in a step if the solver may apply an impulse to it. Every law requires of it:
 ///
 ///   Signorini and Newton  p_n >= 0,  u+ >= rebound,  p_n (u+ - rebound) = 0
-///   Coulomb               |p_t| <= mu p_n; equal where the surfaces slide after the step
+///   Coulomb               |p_t| <= mu p_n; equal and opposite to the slip if the surfaces slide
+///                         after the step
 ///
 /// The laws differ in the condition to act, and in the rebound of pairs whose gap is still open:
 ///
@@ -84,7 +90,7 @@ constexpr double solver_error = 0.01;
 constexpr double parting_error = 0.1;
 
 /// Parameters of a law. No other place in sim depends on the name of the law;
-/// analysis/check/contact_violations.cpp repeats the parameters for grseg-check. All arguments but
+/// analysis/check/laws_of_motion.cpp repeats the parameters for grseg-check. All arguments but
 /// `law` are used by the speculative law alone: its margin is the distance that neighbours may push
 /// a pair together within the horizon, at a velocity of sqrt(g d_S). `horizon` in steps, `step` in
 /// s, `gravity` in m/s^2, `small_diameter` in m.
@@ -104,36 +110,75 @@ inline LawParameters law_parameters(ContactLaw law, double horizon, double step,
   return {};
 }
 
-/// Velocities and inverse mass of a grain, used by its contacts. With the rim speed r*omega instead
-/// of the angular velocity, the moment of inertia of a disc, m r^2/2, drops out of the equations.
-/// Aligned, so that one load instruction reads it.
-template <class Real>
-struct alignas(4 * sizeof(Real)) MotionOf {
-  Real vx = 0, vy = 0;    // m/s, velocity of the centre
-  Real rim_speed = 0;     // m/s, radius times angular velocity (counter-clockwise)
-  Real inverse_mass = 0;  // 1/kg; 0 for grains and walls that contacts cannot move
-};
-template <>
-struct alignas(4 * sizeof(float)) MotionOf<float> {
-  float vx = 0, vy = 0, rim_speed = 0;
-  float unused = 0;  // masses are stored in the contacts, see Increments
-};
-using Motion = MotionOf<double>;
+/// Components of a vector in D dimensions.
+template <int D, class Number>
+using Along = std::array<Number, D>;
+/// Components of a rotation, and of a tangential impulse: one for discs, which rotate about z and
+/// slide along t = (-n_y, n_x); three in space for spheres.
+template <int D, class Number>
+using Turning = std::array<Number, D == 2 ? 1 : 3>;
 
-/// A contact (a pair that acts), with its geometry at mid-step. The normal n points from j to i,
-/// the tangent is t = (-ny, nx). Impulses act ON i, over the whole step.
+template <std::size_t n>
+Eigen::Matrix<double, n, 1> vector_of(const std::array<double, n>& components)
+{
+  return Eigen::Matrix<double, n, 1>(components.data());
+}
+
+/// A rotation in components as an angular velocity, and the other way round.
+template <int D>
+Spin<D> spin_of(const Turning<D, double>& components)
+{
+  if constexpr (D == 2)
+    return components[0];
+  else
+    return vector_of(components);
+}
+template <int D>
+Turning<D, double> components_of(const Spin<D>& spin)
+{
+  if constexpr (D == 2)
+    return {spin};
+  else
+    return {spin.x(), spin.y(), spin.z()};
+}
+
+/// Velocities and inverse mass of a grain, used by its contacts. With the rim velocity r*omega
+/// instead of the angular velocity, the moment of inertia drops out of the equations. Aligned, so
+/// that one load instruction reads four members.
+template <int D, class Real>
+struct MotionOf;
+template <class Real>
+struct alignas(4 * sizeof(Real)) MotionOf<2, Real> {
+  Along<2, Real> v{};      // m/s, velocity of the centre
+  Real inverse_mass = 0;   // 1/kg; 0 for grains and walls that contacts cannot move. In single
+                           // precision always 0: masses are stored in the contacts, see Increments
+  Turning<2, Real> rim{};  // m/s, radius times angular velocity
+};
+template <class Real>
+struct alignas(8 * sizeof(Real)) MotionOf<3, Real> {
+  Along<3, Real> v{};
+  Real inverse_mass = 0;
+  Turning<3, Real> rim{};
+  Real unused = 0;
+};
+template <int D>
+using Motion = MotionOf<D, double>;
+
+/// A contact (a pair that acts), with its geometry at mid-step. The normal n points from j to i.
+/// Impulses act ON i, over the whole step.
 ///
 /// The lever arms are kappa r_i and kappa r_j, kappa = |x_i - x_j|/(r_i + r_j). They add up to the
 /// distance of the centres, so that angular momentum is conserved for any gap.
 ///
 /// Number is a double, or an array or a vector with one number per contact.
-template <class Number>
+template <int D, class Number>
 struct WholeImpulses {
-  Number nx, ny;
-  Number kappa;                 // lever arm over radius; 1 at a straight wall
-  Number mass_n, mass_t;        // kg, effective masses 1/W_nn and 1/W_tt
-  Number rebound;               // m/s, least separation velocity after the step
-  Number impulse_n, impulse_t;  // kg m/s, impulse along n and along t
+  Along<D, Number> n;
+  Number kappa;                  // lever arm over radius; 1 at a straight wall
+  Number mass_n, mass_t;         // kg, effective masses 1/W_nn and 1/W_tt
+  Number rebound;                // m/s, least separation velocity after the step
+  Number impulse_n;              // kg m/s
+  Turning<D, Number> impulse_t;  // kg m/s
 };
 
 /// A contact in single precision. Its impulses are increments on a `base` impulse, whose effect the
@@ -141,18 +186,21 @@ struct WholeImpulses {
 /// so that a bed at rest does not creep. Impulses are divided by mass_n, which makes them relative
 /// velocities; weight_i is the fraction of it by which a body's velocity changes. So a relaxation
 /// needs no mass, and its chain of operations is shorter.
-template <class Number>
+template <int D, class Number>
 struct Increments {
-  Number nx, ny;
+  Along<D, Number> n;
   Number kappa;
-  Number weight_i, weight_j;    // mass_n over the mass of the body; 0 for an immobile body
-  Number mass_ratio;            // mass_t/mass_n
-  Number rebound;               // m/s, least separation velocity after the step
-  Number base_n, base_t;        // first guess of the impulse over mass_n, m/s
-  Number impulse_n, impulse_t;  // increment of the impulse over mass_n, m/s
+  Number weight_i, weight_j;  // mass_n over the mass of the body; 0 for an immobile body
+  Number mass_ratio;          // mass_t/mass_n
+  Number rebound;             // m/s, least separation velocity after the step
+  Number base_n;              // first guess of the impulse over mass_n, m/s
+  Turning<D, Number> base_t;
+  Number impulse_n;  // increment of the impulse over mass_n, m/s
+  Turning<D, Number> impulse_t;
 };
 
-struct Contact : WholeImpulses<double> {
+template <int D>
+struct Contact : WholeImpulses<D, double> {
   std::int32_t i, j;  // indices of the two bodies in the array of Motion
 };
 
@@ -184,20 +232,25 @@ struct Material {
 
 /// Result of relaxing a contact: change of the impulse, and impulse afterwards (`level`), along the
 /// normal and the tangent. All are multiplied by W, which makes them relative velocities, m/s.
-template <class Number>
+template <int D, class Number>
 struct Relaxed {
-  Number change_n, level_n, change_t, level_t;
+  Number change_n, level_n;
+  Turning<D, Number> change_t, level_t;
 };
 
-/// Ratio m r^2/I of a disc: a tangential impulse p_t changes rim speeds by -2 kappa p_t/m.
-constexpr double disc_rim_factor = 2;
+/// Ratio m r^2/I of a disc or sphere: a tangential impulse p_t changes rim velocities by
+/// -rim_factor kappa n x p_t/m.
+template <int D>
+constexpr double rim_factor = 1 / inertia_factor<D>;
 
 /// Function that makes one contact obey the law while all other contacts keep their impulses:
 /// relax() in contact_law-inl.hpp.
-using Relax = Relaxed<double> (*)(Contact&, Motion&, Motion&, double friction);
+template <int D>
+using Relax = Relaxed<D, double> (*)(Contact<D>&, Motion<D>&, Motion<D>&, double friction);
 
 /// Returns relax() compiled for `effects`. Restitution needs no variant here: callers without
 /// restitution set rebounds to 0.
-Relax choose_relax(Effects effects);
+template <int D>
+Relax<D> choose_relax(Effects effects);
 
 }  // namespace grseg

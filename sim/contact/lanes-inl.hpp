@@ -26,9 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <class Real>
 using TagOf = hn::CappedTag<Real, lanes_of<Real>>;
-using D = TagOf<double>;
-using Vector = hn::Vec<D>;
-using Lanes = ContactBlock::Lanes;
+using Doubles = TagOf<double>;
+using Vector = hn::Vec<Doubles>;
 
 // The following functions accept a number (double or float) or a vector.
 
@@ -122,21 +121,95 @@ HWY_INLINE Mask but_not(Mask a, Mask b)
     return hn::AndNot(b, a);
 }
 
-template <class Real>
-HWY_INLINE hn::Vec<TagOf<Real>> load(const std::array<Real, lanes_of<Real>>& lanes,
-                                     std::size_t lane)
+HWY_INLINE Vector load(const Lanes& lanes, std::size_t lane)
 {
-  return hn::Load(TagOf<Real>(), &lanes[lane]);
+  return hn::Load(Doubles(), &lanes[lane]);
 }
-/// All bodies as one array of numbers, four per body.
-template <class Real>
-HWY_INLINE Real* members(MotionOf<Real>* motion)
+HWY_INLINE hn::Vec<TagOf<float>> load(const LanesOf<float>& lanes, std::size_t lane)
+{
+  return hn::Load(TagOf<float>(), &lanes[lane]);
+}
+HWY_INLINE void store(Vector numbers, Lanes& lanes, std::size_t lane)
+{
+  hn::Store(numbers, Doubles(), &lanes[lane]);
+}
+HWY_INLINE void store(hn::Vec<TagOf<float>> numbers, LanesOf<float>& lanes, std::size_t lane)
+{
+  hn::Store(numbers, TagOf<float>(), &lanes[lane]);
+}
+/// All bodies as one array of numbers.
+template <int D, class Real>
+HWY_INLINE Real* members(MotionOf<D, Real>* motion)
 {
   return reinterpret_cast<Real*>(motion);
 }
 
+// Vectors of space, one component per entry: {f(0), f(1), ...}, and sums and products.
+
+template <std::size_t n, class F>
+HWY_INLINE auto components(const F& f) -> std::array<decltype(f(0)), n>
+{
+  if constexpr (n == 1)
+    return {f(0)};
+  else if constexpr (n == 2)
+    return {f(0), f(1)};
+  else
+    return {f(0), f(1), f(2)};
+}
+template <class V, std::size_t n>
+HWY_INLINE std::array<V, n> operator+(const std::array<V, n>& a, const std::array<V, n>& b)
+{
+  return components<n>([&](std::size_t k) HWY_ATTR { return a[k] + b[k]; });
+}
+template <class V, std::size_t n>
+HWY_INLINE std::array<V, n> operator-(const std::array<V, n>& a, const std::array<V, n>& b)
+{
+  return components<n>([&](std::size_t k) HWY_ATTR { return a[k] - b[k]; });
+}
+template <class V, std::size_t n>
+HWY_INLINE std::array<V, n> operator*(V factor, const std::array<V, n>& a)
+{
+  return components<n>([&](std::size_t k) HWY_ATTR { return factor * a[k]; });
+}
+template <class V, std::size_t n>
+HWY_INLINE V dot(const std::array<V, n>& a, const std::array<V, n>& b)
+{
+  if constexpr (n == 1)
+    return a[0] * b[0];
+  else if constexpr (n == 2)
+    return a[0] * b[0] + a[1] * b[1];
+  else
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class V>
+HWY_INLINE std::array<V, 3> cross(const std::array<V, 3>& a, const std::array<V, 3>& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// Size of a vector; of one component, its magnitude.
+template <class V, std::size_t n>
+HWY_INLINE V norm(const std::array<V, n>& a)
+{
+  if constexpr (n == 1)
+    return magnitude(a[0]);
+  else
+    return root(dot(a, a));
+}
+template <class Numbers, std::size_t n>
+HWY_INLINE auto load(const std::array<Numbers, n>& lanes, std::size_t lane)
+    -> std::array<decltype(load(lanes[0], lane)), n>
+{
+  return components<n>([&](std::size_t k) HWY_ATTR { return load(lanes[k], lane); });
+}
+template <class V, class Numbers, std::size_t n>
+HWY_INLINE void store(const std::array<V, n>& numbers, std::array<Numbers, n>& lanes,
+                      std::size_t lane)
+{
+  for (std::size_t k = 0; k < n; ++k) store(numbers[k], lanes[k], lane);
+}
+
 /// Mask as bits, the first lane in the lowest bit.
-HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask)
+HWY_INLINE std::uint32_t bits_of(Doubles d, hn::Mask<Doubles> mask)
 {
   std::uint8_t bits[8];
   hn::StoreMaskBits(d, mask, bits);
@@ -189,7 +262,7 @@ HWY_INLINE double sum(const Lanes& s)
   static_assert(block_lanes == 8);
   return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
-HWY_INLINE double sum(const BlockOf<float>::Lanes& s)
+HWY_INLINE double sum(const LanesOf<float>& s)
 {
   Lanes pairs;
   for (std::size_t k = 0; k < block_lanes; ++k)

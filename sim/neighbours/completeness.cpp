@@ -13,20 +13,23 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int32_t columns_per_group = 3;
 
-double squared_size(const Extent& extent)
+template <int D>
+double squared_size(const Extent<D>& extent)
 {
   return extent.isEmpty() ? 0 : extent.diagonal().squaredNorm();
 }
 
-Extent velocities_of(const Range& bodies, const std::vector<Motion>& motion)
+template <int D>
+Extent<D> velocities_of(const Range& bodies, const std::vector<Motion<D>>& motion)
 {
-  Extent extent;
-  for (auto b = bodies.begin; b < bodies.end; ++b) extent.extend(Vec2(motion[b].vx, motion[b].vy));
+  Extent<D> extent;
+  for (auto b = bodies.begin; b < bodies.end; ++b) extent.extend(vector_of(motion[b].v));
   return extent;
 }
 
 /// Least component along `direction` of all displacements in `extent`; infinity if it is empty.
-double least_along(const Extent& extent, const Vec2& direction)
+template <int D>
+double least_along(const Extent<D>& extent, const Vector<D>& direction)
 {
   if (extent.isEmpty()) return infinity;
   return extent.min().cwiseProduct(direction).cwiseMin(extent.max().cwiseProduct(direction)).sum();
@@ -34,10 +37,12 @@ double least_along(const Extent& extent, const Vec2& direction)
 
 }  // namespace
 
-Completeness::Completeness(const std::vector<Wall>& walls, const Box& box, double cell, double skin,
-                           double margin, int threads)
+template <int D>
+Completeness<D>::Completeness(const std::vector<Wall<D>>& walls, const Box& box, double cell,
+                              double skin, double margin, int threads)
     : walls_(walls),
-      periodic_(box.periodic_x),
+      periodic_x_(box.periodic_x),
+      periodic_z_(box.periodic_z),
       cell_(cell),
       skin_(skin),
       slack_(skin - margin),
@@ -45,18 +50,22 @@ Completeness::Completeness(const std::vector<Wall>& walls, const Box& box, doubl
 {
 }
 
-void Completeness::begin(const CellGrid& grid, const GrainState& grains,
-                         const std::vector<Vec2>& made_at)
+template <int D>
+void Completeness<D>::begin(const CellGrid<D>& grid, const GrainState<D>& grains,
+                            const std::vector<Position<D>>& made_at)
 {
   column_width_ = grid.column_width();
+  slice_width_ = grid.slice_width();
   make_groups(grid);
   for_each_part(threads_, walls_.empty() ? 0 : groups_.size(),
                 [&](std::size_t group) { find_unlisted(group, grains, made_at); });
 }
 
-void Completeness::make_groups(const CellGrid& grid)
+template <int D>
+void Completeness<D>::make_groups(const CellGrid<D>& grid)
 {
   bands_ = static_cast<std::size_t>(grid.bands());
+  slices_ = static_cast<std::size_t>(grid.slices());
   first_group_.assign(1, 0);
   std::vector<std::int32_t> first_column;
   least_columns_ = grid.columns();
@@ -70,90 +79,100 @@ void Completeness::make_groups(const CellGrid& grid)
   first_column.push_back(grid.columns());
   groups_.clear();
   for (std::int32_t band = 0; band < grid.bands(); ++band)
-    for (std::size_t g = 0; g + 1 < first_column.size(); ++g)
-      groups_.push_back(grid.bodies(first_column[g], first_column[g + 1] - 1, band));
+    for (std::int32_t slice = 0; slice < grid.slices(); ++slice)
+      for (std::size_t g = 0; g + 1 < first_column.size(); ++g)
+        groups_.push_back(grid.bodies(first_column[g], first_column[g + 1] - 1, band, slice));
   moved_.resize(groups_.size());
   band_moved_.resize(bands_);
   moved_in_band_.resize(bands_);
   unlisted_nearest_.assign(walls_.size() * groups_.size(), infinity);
 }
 
-void Completeness::find_unlisted(std::size_t group, const GrainState& grains,
-                                 const std::vector<Vec2>& made_at)
+template <int D>
+void Completeness<D>::find_unlisted(std::size_t group, const GrainState<D>& grains,
+                                    const std::vector<Position<D>>& made_at)
 {
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     auto& nearest = unlisted_nearest_[w * groups_.size() + group];
     for (auto b = groups_[group].begin; b < groups_[group].end; ++b) {
       if (!(grains.motion[b].inverse_mass > 0)) continue;
-      const double gap = distance_to(walls_[w], made_at[b]) - grains.radius[b];
+      const double gap = distance_to<D>(walls_[w], point<D>(made_at[b])) - grains.radius[b];
       if (gap > skin_) nearest = std::min(nearest, gap);
     }
   }
 }
 
-bool Completeness::holds(const std::vector<Vec2>& made_at, const std::vector<Vec2>& position,
-                         double farthest)
+template <int D>
+bool Completeness<D>::holds(const std::vector<Position<D>>& made_at,
+                            const std::vector<Position<D>>& position, double farthest)
 {
   allowed_ = std::min(slack_, farthest);
-  const std::size_t across = first_group_.back();
   for_each_part(threads_, bands_, [&](std::size_t band) {
-    measure_displacements(made_at, position, std::span(groups_).subspan(band * across, across),
-                          std::span(moved_).subspan(band * across));
+    const auto first = band * per_band();
+    measure_displacements<D>(made_at, position, std::span(groups_).subspan(first, per_band()),
+                             std::span(moved_).subspan(first));
   });
   for_each_part(threads_, bands_, [&](std::size_t band) { measure_neighbours(band); });
   neighbours_moved_ = *std::max_element(moved_in_band_.begin(), moved_in_band_.end());
   return neighbours_moved_ <= allowed_ && bands_stay_apart() && walls_stay_away();
 }
 
-double Completeness::fastest_unlisted(const std::vector<Motion>& motion) const
+template <int D>
+double Completeness<D>::fastest_unlisted(const std::vector<Motion<D>>& motion) const
 {
-  std::vector<Extent> velocity;
-  for (const auto& group : groups_) velocity.push_back(velocities_of(group, motion));
-  const std::size_t across = first_group_.back();
+  std::vector<Extent<D>> velocity;
+  for (const auto& group : groups_) velocity.push_back(velocities_of<D>(group, motion));
   double squared = 0;
   for (std::size_t band = 0; band < bands_; ++band)
-    for (std::size_t g = 0; g < across; ++g)
-      if (squared_size(square_at(moved_, band, g)) > allowed_ * allowed_)
-        squared = std::max(squared, squared_size(square_at(velocity, band, g)));
+    for (std::size_t g = 0; g < per_band(); ++g)
+      if (squared_size<D>(cube_at(moved_, band, g)) > allowed_ * allowed_)
+        squared = std::max(squared, squared_size<D>(cube_at(velocity, band, g)));
   if (!bands_stay_apart()) {
-    Extent all;
+    Extent<D> all;
     for (const auto& group : velocity) all.extend(group);
-    squared = squared_size(all);
+    squared = squared_size<D>(all);
   }
   return std::sqrt(squared);
 }
 
-Extent Completeness::square_at(const std::vector<Extent>& groups, std::size_t band,
-                               std::size_t g) const
+template <int D>
+Extent<D> Completeness<D>::cube_at(const std::vector<Extent<D>>& groups, std::size_t band,
+                                   std::size_t g) const
 {
-  const std::size_t across = first_group_.back();
-  const auto* here = &groups[band * across];
-  const auto* above = band + 1 < bands_ ? here + across : here;
-  const std::size_t next = g + 1 < across ? g + 1 : periodic_ ? 0 : g;
-  auto square = here[g];
-  for (const auto& other : {here[next], above[g], above[next]}) square.extend(other);
-  return square;
+  const std::size_t across = first_group_.back(), slice = g / across, column = g % across;
+  const auto after = [](std::size_t k, std::size_t count, bool ring) {
+    return k + 1 < count ? k + 1 : ring ? 0 : k;
+  };
+  const std::size_t right = after(column, across, periodic_x_),
+                    behind = after(slice, slices_, periodic_z_), above = after(band, bands_, false);
+  Extent<D> cube;
+  for (const auto b : {band, above})
+    for (const auto s : {slice, behind})
+      for (const auto c : {column, right}) cube.extend(groups[(b * slices_ + s) * across + c]);
+  return cube;
 }
 
-void Completeness::measure_neighbours(std::size_t band)
+template <int D>
+void Completeness<D>::measure_neighbours(std::size_t band)
 {
-  const std::size_t across = first_group_.back();
   band_moved_[band].setEmpty();
   double squared = 0;
-  for (std::size_t g = 0; g < across; ++g) {
-    band_moved_[band].extend(moved_[band * across + g]);
-    squared = std::max(squared, squared_size(square_at(moved_, band, g)));
+  for (std::size_t g = 0; g < per_band(); ++g) {
+    band_moved_[band].extend(moved_[band * per_band() + g]);
+    squared = std::max(squared, squared_size<D>(cube_at(moved_, band, g)));
   }
   moved_in_band_[band] = std::sqrt(squared);
 }
 
 /// True if groups that are not neighbours cannot have met. Between them lies a whole band or a
 /// whole group, so their displacement may be larger by its height or width.
-bool Completeness::bands_stay_apart() const
+template <int D>
+bool Completeness<D>::bands_stay_apart() const
 {
   const double group_width = least_columns_ * column_width_;
-  const bool all_are_neighbours = first_group_.back() <= (periodic_ ? 3 : 2);
-  Extent below, here;
+  const bool columns_are_neighbours = first_group_.back() <= (periodic_x_ ? 3 : 2);
+  const bool slices_are_neighbours = slices_ <= (periodic_z_ ? 3 : 2);
+  Extent<D> below, here;
   double highest = -infinity;  // displacement of bands two or more below, less the height between
   for (const auto& band : band_moved_) {
     highest = std::max(highest - cell_, below.max().y());
@@ -161,21 +180,27 @@ bool Completeness::bands_stay_apart() const
     here = band;
     if (here.isEmpty()) continue;
     if (!(highest - here.min().y() <= allowed_)) return false;
-    const auto both = here.merged(below);
-    if (!all_are_neighbours && !(both.sizes().x() <= group_width - cell_ + allowed_)) return false;
+    const Vector<D> apart = here.merged(below).sizes();
+    if (!columns_are_neighbours && !(apart.x() <= group_width - cell_ + allowed_)) return false;
+    if (!slices_are_neighbours && !(apart[D - 1] <= slice_width_ - cell_ + allowed_)) return false;
   }
   return true;
 }
 
-bool Completeness::walls_stay_away() const
+template <int D>
+bool Completeness<D>::walls_stay_away() const
 {
   const double margin = skin_ - slack_;
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      if (!(unlisted_nearest_[w * groups_.size() + g] + least_along(moved_[g], walls_[w].normal) >
+      if (!(unlisted_nearest_[w * groups_.size() + g] +
+                least_along<D>(moved_[g], walls_[w].normal) >
             margin))
         return false;
   return true;
 }
+
+template class Completeness<2>;
+template class Completeness<3>;
 
 }  // namespace grseg

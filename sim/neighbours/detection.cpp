@@ -17,6 +17,21 @@
 #include "sim/contact/contact_law-inl.hpp"
 // clang-format on
 
+#ifndef GRSEG_SIM_DETECTION_LOOPS
+#define GRSEG_SIM_DETECTION_LOOPS
+namespace grseg {
+namespace {
+/// The loops below, compiled for an instruction set.
+template <int D>
+struct DetectionLoops {
+  void (*find)(const Pairs<D>&, std::size_t strip, const DetectionRule<D>&, StripContacts<D>&,
+               DetectionSums&);
+  void (*keep)(const StripContacts<D>&, PairMemory<D>*, ImpulseSums<D>&);
+};
+}  // namespace
+}  // namespace grseg
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace grseg {
 namespace HWY_NAMESPACE {
@@ -34,35 +49,54 @@ struct alignas(64) LaneSums {
   bool coincident = false;
 };
 
-/// Data of a pair as an array of doubles: two of Geometry, four of Memory.
-HWY_INLINE const double* numbers_of(const Pairs::Geometry* g)
+/// Geometries of pairs as an array of doubles, two per pair.
+template <int D>
+HWY_INLINE const double* numbers_of(const PairGeometry<D>* g)
 {
   return &g->shift;
 }
-HWY_INLINE const double* numbers_of(const Pairs::Memory* g)
+
+/// Vectors between the centres of pairs, m, and the distances at which they touch.
+template <int D>
+struct Apart {
+  Along<D, Vector> x;
+  Vector reach;
+};
+/// `geometry`: the two doubles of PairGeometry. Shifts of spheres are always added: they also mark
+/// entries that are not listed.
+template <bool periodic, int D>
+HWY_INLINE Apart<D> apart_of(std::span<const Position<D>> position, const std::uint32_t* i,
+                             const std::uint32_t* j, const Twos& geometry)
 {
-  return &g->n;
+  const Doubles d;
+  const auto* numbers = position.data()->data();
+  if constexpr (D == 2) {
+    const auto [x, y] = load_differences<1>(d, numbers, i, j);
+    if constexpr (periodic) return {{x + geometry.first, y}, geometry.second};
+    return {{x, y}, geometry.second};
+  } else {
+    const auto [x, y, z, reach] = load_sums<3>(d, numbers, i, j);
+    return {{x + geometry.first, y, z + geometry.second}, reach};
+  }
 }
 
 /// Writes the pairs of grains whose distance is below reach + margin to `near`, and one bit per
 /// pair to `acting`; returns the number of these pairs.
-template <bool periodic>
-HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c,
-                                       const DetectionRule& rule, NearPairs& near,
+template <bool periodic, int D>
+HWY_INLINE std::size_t find_near_pairs(const Pairs<D>& pairs, const PairClass& c,
+                                       const DetectionRule<D>& rule, NearPairs& near,
                                        std::uint8_t* acting)
 {
-  const D d;
-  const auto* position = rule.ahead.data()->data();
+  const Doubles d;
   const auto margin = hn::Set(d, rule.margin);
   std::size_t count = 0;
   for (std::size_t k = c.begin; k < c.end; k += block_lanes) {
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const std::size_t at = k + lane;
-      auto [x, y] = load_differences<1>(d, position, &pairs.i[at], &pairs.j[at]);
-      const auto [shift, reach] = load_next_twos(d, numbers_of(&pairs.geometry[at]));
-      if constexpr (periodic) x = x + shift;
-      bits |= bits_of(d, acts(x, y, reach, margin)) << lane;
+      const auto geometry = load_next_twos(d, numbers_of(&pairs.geometry[at]));
+      const auto apart = apart_of<periodic, D>(rule.ahead, &pairs.i[at], &pairs.j[at], geometry);
+      bits |= bits_of(d, acts(apart.x, apart.reach, margin)) << lane;
     }
     *acting++ = static_cast<std::uint8_t>(bits);
     store_set_bits<2>(bits, k, &near.pair[count]);
@@ -73,16 +107,22 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs& pairs, const Pairs::Class& c
   return count;
 }
 
-std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const DetectionRule& rule,
+template <int D>
+std::size_t find_near_wall(const Pairs<D>& pairs, const PairClass& c, const DetectionRule<D>& rule,
                            NearPairs& near, std::uint8_t* acting)
 {
   const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
   std::fill_n(acting, (c.end - c.begin) / block_lanes, std::uint8_t{0});
   std::size_t count = 0;
   for (auto k = c.begin; k < c.end; ++k) {
-    const auto& x = rule.ahead[pairs.i[k] / 2];
-    const double distance = (x - wall.point).dot(wall.normal);
-    if (!acts_on_wall(distance, pairs.geometry[k].reach, rule.margin)) continue;
+    if (!pairs.listed(k)) continue;
+    const auto& position = rule.ahead[pairs.i[k] / position_doubles<D>];
+    double reach = 0;
+    if constexpr (D == 2)
+      reach = pairs.geometry[k].reach;
+    else
+      reach = position[3];
+    if (!acts_on_wall(distance_to<D>(wall, point<D>(position)), reach, rule.margin)) continue;
     const auto at = k - c.begin;
     acting[at / block_lanes] |= static_cast<std::uint8_t>(1U << at % block_lanes);
     near.pair[count] = 2 * k;
@@ -93,31 +133,31 @@ std::size_t find_near_wall(const Pairs& pairs, const Pairs::Class& c, const Dete
   return count;
 }
 
-template <bool periodic>
-HWY_INLINE Normal<Vector> normal_of_grains(const DetectionRule& rule, const std::uint32_t* i,
-                                           const std::uint32_t* j, Vector shift, hn::Mask<D> used,
-                                           LaneSums& sums)
+/// Vectors from the point of a wall to the centres of grains, m, and their radii.
+template <int D>
+HWY_INLINE Apart<D> apart_from_wall(std::span<const Position<D>> position, const Wall<D>& wall,
+                                    const std::uint32_t* i, const Twos& geometry)
 {
-  const D d;
-  auto [x, y] = load_differences<1>(d, rule.middle.data()->data(), i, j);
-  if constexpr (periodic) x = x + shift;
-  const auto normal = normal_of_discs(x, y, used);
-  sums.coincident |= !hn::AllFalse(d, both(used, normal.distance == hn::Zero(d)));
-  return normal;
-}
-
-HWY_INLINE Normal<Vector> normal_at_wall(const DetectionRule& rule, const Wall& wall,
-                                         const std::uint32_t* i)
-{
-  const D d;
-  const auto [x, y] = load_twos(d, rule.middle.data()->data(), i);
-  return normal_of_wall(x - hn::Set(d, wall.point.x()), y - hn::Set(d, wall.point.y()),
-                        hn::Set(d, wall.normal.x()), hn::Set(d, wall.normal.y()));
+  const Doubles d;
+  const auto* numbers = position.data()->data();
+  const auto from_wall = [&](const auto& x) HWY_ATTR {
+    return components<D>([&](std::size_t k) HWY_ATTR {
+      return x[k] - hn::Set(d, wall.point[static_cast<Eigen::Index>(k)]);
+    });
+  };
+  if constexpr (D == 2) {
+    const auto [x, y] = load_twos(d, numbers, i);
+    return {from_wall(Along<2, Vector>{x, y}), geometry.second};
+  } else {
+    const auto x = load_fours(d, numbers, i);
+    return {from_wall(x), x[3]};
+  }
 }
 
 /// Sets the bodies of a block and the entries of its pairs from eight pairs of `near`.
-HWY_INLINE void set_places(const NearPairs& near, std::size_t first, ContactBlock& block,
-                           BlockOrigin& origin)
+template <int D>
+HWY_INLINE void set_places(const NearPairs& near, std::size_t first, ContactBlock<D>& block,
+                           BlockOrigin<D>& origin)
 {
   const D32 d;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
@@ -126,34 +166,46 @@ HWY_INLINE void set_places(const NearPairs& near, std::size_t first, ContactBloc
     hn::Store(hn::Add(i, i), d, &block.i[lane]);
     hn::Store(hn::Add(j, j), d, &block.j[lane]);
     const auto pair = hn::LoadU(d, &near.pair[first + lane]);
-    hn::Store(hn::Add(pair, pair), d, &origin.pair[lane]);
+    const auto twice = hn::Add(pair, pair);
+    hn::Store(D == 2 ? twice : hn::Add(twice, twice), d, &origin.pair[lane]);
   }
 }
 
+template <int D>
 struct Geometries {
-  Vector nx, ny, kappa, gap;
+  Along<D, Vector> n;
+  Vector kappa, gap;
 };
 
 /// Geometries of as many pairs as a vector has lanes, from entry `at` of `near` on.
-template <bool periodic>
-HWY_INLINE Geometries geometry_of(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
-                                  std::size_t at, const DetectionRule& rule, hn::Mask<D> used,
-                                  LaneSums& sums)
+template <bool periodic, int D>
+HWY_INLINE Geometries<D> geometry_of(const Pairs<D>& pairs, const PairClass& c,
+                                     const NearPairs& near, std::size_t at,
+                                     const DetectionRule<D>& rule, hn::Mask<Doubles> used,
+                                     LaneSums& sums)
 {
-  const D d;
+  const Doubles d;
   const auto one = hn::Set(d, 1.0);
-  const auto [shift, reach] = load_twos(d, numbers_of(pairs.geometry.data()), &near.pair[at]);
-  const auto n =
-      c.wall < 0 ? normal_of_grains<periodic>(rule, &near.i[at], &near.j[at], shift, used, sums)
-                 : normal_at_wall(rule, rule.walls[static_cast<std::size_t>(c.wall)], &near.i[at]);
-  const auto kappa = c.wall < 0 ? n.distance * (one / reach) : one;
-  return {n.nx, n.ny, kappa, n.distance - reach};
+  const auto geometry = load_twos(d, numbers_of(pairs.geometry.data()), &near.pair[at]);
+  if (c.wall >= 0) {
+    const auto& wall = rule.walls[static_cast<std::size_t>(c.wall)];
+    const auto apart = apart_from_wall<D>(rule.middle, wall, &near.i[at], geometry);
+    const auto n = normal_of_wall(apart.x, components<D>([&](std::size_t k) HWY_ATTR {
+                                    return hn::Set(d, wall.normal[static_cast<Eigen::Index>(k)]);
+                                  }));
+    return {n.n, one, n.distance - apart.reach};
+  }
+  const auto apart = apart_of<periodic, D>(rule.middle, &near.i[at], &near.j[at], geometry);
+  const auto n = normal_of_grains(apart.x, used);
+  sums.coincident |= !hn::AllFalse(d, both(used, n.distance == hn::Zero(d)));
+  const auto reach = D == 2 ? apart.reach : choose(used, apart.reach, one);
+  return {n.n, n.distance * (one / reach), n.distance - reach};
 }
 
-HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Mask<D> used,
+HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Mask<Doubles> used,
                            std::size_t lane, LaneSums& sums)
 {
-  const D d;
+  const Doubles d;
   const auto add = [&](Lanes& to, Vector what)
                        HWY_ATTR { hn::Store(load(to, lane) + what, d, &to[lane]); };
   const auto keep_most = [&](Lanes& of, Vector what)
@@ -170,39 +222,67 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Ma
   add(sums.approaches, fresh * fresh);
 }
 
+template <int D>
+struct Memories {
+  Vector n;
+  Turning<D, Vector> t;
+  Vector approach;
+};
+template <int D>
+HWY_INLINE Memories<D> load_memories(const double* memory, const std::uint32_t* at)
+{
+  const auto first = load_fours(Doubles(), memory, at);
+  if constexpr (D == 2)
+    return {first[0], {first[1]}, first[2]};
+  else
+    return {first[0], {first[1], first[2], first[3]}, load_fours(Doubles(), memory + 4, at)[0]};
+}
+template <int D>
+HWY_INLINE void store_memories(const Memories<D>& m, double* memory, const std::uint32_t* at)
+{
+  const Doubles d;
+  const auto zero = hn::Zero(d);
+  if constexpr (D == 2) {
+    store_fours(d, Fours<Doubles>{m.n, m.t[0], m.approach, zero}, memory, at);
+  } else {
+    store_fours(d, Fours<Doubles>{m.n, m.t[0], m.t[1], m.t[2]}, memory, at);
+    store_fours(d, Fours<Doubles>{m.approach, zero, zero, zero}, memory + 4, at);
+  }
+}
+
 /// Writes a block with eight pairs of a class, from entry `first` of `near` on, including the first
 /// guesses of their impulses.
-template <Variant with>
-HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearPairs& near,
-                          std::size_t first, const DetectionRule& rule, ContactBlock& block,
-                          BlockOrigin& origin, LaneSums& sums)
+template <Variant with, int D>
+HWY_INLINE void set_block(const Pairs<D>& pairs, const PairClass& c, const NearPairs& near,
+                          std::size_t first, const DetectionRule<D>& rule, ContactBlock<D>& block,
+                          BlockOrigin<D>& origin, LaneSums& sums)
 {
-  const D d;
+  const Doubles d;
   const auto* motion = reinterpret_cast<const double*>(rule.motion.data());
+  const double* memory = &pairs.memory.data()->n;
   set_places(near, first, block, origin);
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto store = [&](Vector what, Lanes& to) HWY_ATTR { hn::Store(what, d, &to[lane]); };
-    const auto v = load_relative(d, motion, &block.i[lane], &block.j[lane]);
+    const auto v = load_relative<D>(d, motion, &block.i[lane], &block.j[lane]);
     const auto used = hn::Gt(v.inverse_mass, hn::Zero(d));
-    const auto g = geometry_of<with.periodic>(pairs, c, near, first + lane, rule, used, sums);
+    const auto g = geometry_of<with.periodic, D>(pairs, c, near, first + lane, rule, used, sums);
     const auto mass = normal_mass(v.inverse_mass, used);
-    store(g.nx, block.nx);
-    store(g.ny, block.ny);
-    store(g.kappa, block.kappa);
-    store(mass, block.mass_n);
-    store(with.rotation ? tangential_mass(mass, g.kappa, rule.rim_factor) : mass, block.mass_t);
+    store(g.n, block.n, lane);
+    store(g.kappa, block.kappa, lane);
+    store(mass, block.mass_n, lane);
+    store(with.rotation ? tangential_mass(mass, g.kappa, rule.rim_factor) : mass, block.mass_t,
+          lane);
 
-    const auto separation = v.vx * g.nx + v.vy * g.ny;
-    const auto [n, t, approach, unused] =
-        load_bodies(d, numbers_of(pairs.memory.data()), &origin.pair[lane]);
-    const auto remembered = with.horizon ? approach : hn::Zero(d);
+    const auto separation = dot(v.v, g.n);
+    const auto remembered_of = load_memories<D>(memory, &origin.pair[lane]);
+    const auto n = remembered_of.n;
+    const auto remembered = with.horizon ? remembered_of.approach : hn::Zero(d);
     const auto rebound = rebound_of<with.restitution, with.horizon>(
         g.gap, separation, n * v.inverse_mass, remembered, rule.restitution, rule.horizon);
-    store(rebound.velocity, block.rebound);
-    store(n, block.impulse_n);
-    store(t, block.impulse_t);
-    store(g.gap, origin.gap);
-    store(rebound.remembered, origin.approach);
+    store(rebound.velocity, block.rebound, lane);
+    store(n, block.impulse_n, lane);
+    store(in_plane(remembered_of.t, g.n), block.impulse_t, lane);
+    store(g.gap, origin.gap, lane);
+    store(rebound.remembered, origin.approach, lane);
     accumulate(g.gap, larger(minus(separation), hn::Zero(d)), n, used, lane, sums);
   }
 }
@@ -210,7 +290,8 @@ HWY_INLINE void set_block(const Pairs& pairs, const Pairs::Class& c, const NearP
 /// Fills the last block of a class with the neutral pair. In a class of pairs without a colour each
 /// pair becomes a block of its own; pairs are moved to their blocks from the last one on. Returns
 /// the number of blocks.
-std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs& near)
+template <int D>
+std::size_t fill_up(const Pairs<D>& pairs, bool alone, std::size_t count, NearPairs& near)
 {
   const auto neutral = static_cast<std::uint32_t>(2 * pairs.size()), nobody = pairs.i.back();
   const auto clear = [&](std::size_t first, std::size_t last) {
@@ -230,9 +311,9 @@ std::size_t fill_up(const Pairs& pairs, bool alone, std::size_t count, NearPairs
   return count;
 }
 
-template <Variant with>
-void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, StripContacts& contacts,
-          DetectionSums& total)
+template <Variant with, int D>
+void find(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& rule,
+          StripContacts<D>& contacts, DetectionSums& total)
 {
   LaneSums sums;
   auto& near = contacts.near;
@@ -243,12 +324,12 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
     if (c.on_base && !base_seen) contacts.on_base = contacts.size;
     base_seen |= c.on_base;
     auto* acting = &contacts.acting[(c.begin - first) / block_lanes];
-    const auto count = c.wall < 0 ? find_near_pairs<with.periodic>(pairs, c, rule, near, acting)
-                                  : find_near_wall(pairs, c, rule, near, acting);
+    const auto count = c.wall < 0 ? find_near_pairs<with.periodic, D>(pairs, c, rule, near, acting)
+                                  : find_near_wall<D>(pairs, c, rule, near, acting);
     const auto blocks = fill_up(pairs, c.alone, count, near);
     for (std::size_t b = 0; b < blocks; ++b)
-      set_block<with>(pairs, c, near, b * block_lanes, rule, contacts.blocks[contacts.size + b],
-                      contacts.origins[contacts.size + b], sums);
+      set_block<with, D>(pairs, c, near, b * block_lanes, rule, contacts.blocks[contacts.size + b],
+                         contacts.origins[contacts.size + b], sums);
     for (std::size_t b = 0; b < blocks; ++b)
       if (c.alone || b + 1 == blocks)
         contacts.ends.push_back(static_cast<std::uint32_t>(contacts.size + b + 1));
@@ -264,43 +345,57 @@ void find(const Pairs& pairs, std::size_t strip, const DetectionRule& rule, Stri
 }
 
 /// Calls find() with the effects of the scene as template arguments.
-void find_for(const Pairs& pairs, std::size_t strip, const DetectionRule& rule,
-              StripContacts& contacts, DetectionSums& total)
+template <int D>
+void find_for(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& rule,
+              StripContacts<D>& contacts, DetectionSums& total)
 {
   const auto find_it = with_flags(
       []<bool periodic, bool rotation, bool restitution, bool horizon>() {
-        return &find<Variant{periodic, rotation, restitution, horizon}>;
+        return &find<Variant{periodic, rotation, restitution, horizon}, D>;
       },
       rule.periodic, rule.effects.rotation, rule.effects.restitution, rule.horizon > 0);
   find_it(pairs, strip, rule, contacts, total);
 }
 
-void keep(const StripContacts& contacts, Pairs::Memory* memories, ImpulseSums& total)
+template <int D>
+void keep(const StripContacts<D>& contacts, PairMemory<D>* memories, ImpulseSums<D>& total)
 {
-  const D d;
+  const Doubles d;
   auto* memory = reinterpret_cast<double*>(memories);
-  alignas(64) Lanes gaps{}, base_x{}, base_y{};
+  alignas(64) Lanes gaps{};
+  alignas(64) Along<D, Lanes> on_base{};
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
     const auto& origin = contacts.origins[b];
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const auto add = [&](Lanes& to, Vector what)
-                           HWY_ATTR { hn::Store(load(to, lane) + what, d, &to[lane]); };
-      const auto n = load(block.impulse_n, lane), t = load(block.impulse_t, lane);
+                           HWY_ATTR { store(load(to, lane) + what, to, lane); };
+      const auto n = load(block.impulse_n, lane);
+      const auto t = load(block.impulse_t, lane);
       const auto bearing = n > hn::Zero(d);
       const auto approach = choose(bearing, load(origin.approach, lane));
-      store_bodies(d, Bodies<D>{n, t, approach, hn::Zero(d)}, memory, &origin.pair[lane]);
+      store_memories<D>({n, t, approach}, memory, &origin.pair[lane]);
       add(gaps, choose(bearing, magnitude(load(origin.gap, lane))));
       total.force_bearing += hn::CountTrue(d, bearing);
       if (b < contacts.on_base) continue;
-      const auto nx = load(block.nx, lane), ny = load(block.ny, lane);
-      add(base_x, n * nx - t * ny);
-      add(base_y, n * ny + t * nx);
+      const auto impulse = in_space(load(block.n, lane), n, t);
+      for (std::size_t k = 0; k < D; ++k) add(on_base[k], impulse[k]);
     }
   }
   total.gap_bearing = sum(gaps);
-  total.on_base_side = {sum(base_x), sum(base_y)};
+  for (std::size_t k = 0; k < D; ++k)
+    total.on_base_side[static_cast<Eigen::Index>(k)] = sum(on_base[k]);
   leave_vectors();
+}
+
+// Dispatch accepts no templates.
+DetectionLoops<2> loops_for_discs()
+{
+  return {find_for<2>, keep<2>};
+}
+DetectionLoops<3> loops_for_spheres()
+{
+  return {find_for<3>, keep<3>};
 }
 
 }  // namespace
@@ -312,11 +407,21 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(find_for);
-HWY_EXPORT(keep);
+HWY_EXPORT(loops_for_discs);
+HWY_EXPORT(loops_for_spheres);
+
+template <int D>
+DetectionLoops<D> loops()
+{
+  if constexpr (D == 2)
+    return HWY_DYNAMIC_DISPATCH(loops_for_discs)();
+  else
+    return HWY_DYNAMIC_DISPATCH(loops_for_spheres)();
+}
 
 /// Resizes the arrays of a strip for the case that all its listed pairs act.
-void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
+template <int D>
+void make_room(std::span<const PairClass> classes, StripContacts<D>& contacts)
 {
   std::size_t most = 0, largest_class = 0;
   for (const auto& c : classes) {
@@ -334,8 +439,9 @@ void make_room(std::span<const Pairs::Class> classes, StripContacts& contacts)
 
 }  // namespace
 
-DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
-                            std::vector<StripContacts>& contacts, int threads)
+template <int D>
+DetectionSums find_contacts(const Pairs<D>& pairs, const DetectionRule<D>& rule,
+                            std::vector<StripContacts<D>>& contacts, int threads)
 {
   contacts.resize(pairs.strip_count());
   std::vector<DetectionSums> sums(contacts.size());
@@ -344,7 +450,7 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
     std::swap(strip.acting, strip.acted);
     strip.size = strip.count = 0;
     make_room(pairs.classes_of(s), strip);
-    HWY_DYNAMIC_DISPATCH(find_for)(pairs, s, rule, strip, sums[s]);
+    loops<D>().find(pairs, s, rule, strip, sums[s]);
   });
   DetectionSums total;
   for (const auto& s : sums) {
@@ -360,19 +466,20 @@ DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
   return total;
 }
 
-void forget_search(std::vector<StripContacts>& contacts)
+template <int D>
+void forget_search(std::vector<StripContacts<D>>& contacts)
 {
   for (auto& strip : contacts) std::swap(strip.acting, strip.acted);
 }
 
-ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
-                          std::span<Pairs::Memory> memories, int threads)
+template <int D>
+ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts,
+                             std::span<PairMemory<D>> memories, int threads)
 {
-  std::vector<ImpulseSums> sums(contacts.size());
-  for_each_part(threads, contacts.size(), [&](std::size_t s) {
-    HWY_DYNAMIC_DISPATCH(keep)(contacts[s], memories.data(), sums[s]);
-  });
-  ImpulseSums total;
+  std::vector<ImpulseSums<D>> sums(contacts.size());
+  for_each_part(threads, contacts.size(),
+                [&](std::size_t s) { loops<D>().keep(contacts[s], memories.data(), sums[s]); });
+  ImpulseSums<D> total;
   for (const auto& s : sums) {
     total.force_bearing += s.force_bearing;
     total.gap_bearing += s.gap_bearing;
@@ -381,8 +488,9 @@ ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
   return total;
 }
 
-void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
-                     std::span<Pairs::Memory> memories, int threads)
+template <int D>
+void forget_impulses(const Pairs<D>& pairs, std::span<const StripContacts<D>> contacts,
+                     std::span<PairMemory<D>> memories, int threads)
 {
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     const auto& strip = contacts[s];
@@ -397,6 +505,21 @@ void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts
     }
   });
 }
+
+template DetectionSums find_contacts(const Pairs<2>&, const DetectionRule<2>&,
+                                     std::vector<StripContacts<2>>&, int);
+template void forget_search(std::vector<StripContacts<2>>&);
+template ImpulseSums<2> keep_impulses(std::span<const StripContacts<2>>, std::span<PairMemory<2>>,
+                                      int);
+template void forget_impulses(const Pairs<2>&, std::span<const StripContacts<2>>,
+                              std::span<PairMemory<2>>, int);
+template DetectionSums find_contacts(const Pairs<3>&, const DetectionRule<3>&,
+                                     std::vector<StripContacts<3>>&, int);
+template void forget_search(std::vector<StripContacts<3>>&);
+template ImpulseSums<3> keep_impulses(std::span<const StripContacts<3>>, std::span<PairMemory<3>>,
+                                      int);
+template void forget_impulses(const Pairs<3>&, std::span<const StripContacts<3>>,
+                              std::span<PairMemory<3>>, int);
 
 }  // namespace grseg
 #endif  // HWY_ONCE

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/contact/contact_blocks.hpp"
+#include "sim/neighbours/grain_state.hpp"
 #include "sim/neighbours/pairs.hpp"
 
 #include <span>
@@ -12,44 +13,50 @@
 namespace grseg {
 
 /// Gaps of the contacts of a block, and the pairs of the list that they belong to.
+template <int D>
 struct alignas(64) BlockOrigin {
-  ContactBlock::Lanes gap;                      // m, at mid-step
-  ContactBlock::Lanes approach;                 // m/s, stored for the next step, see Rebound
-  std::array<std::uint32_t, block_lanes> pair;  // 4 times the entry in Pairs; unused lanes: neutral
+  Lanes gap;       // m, at mid-step
+  Lanes approach;  // m/s, stored for the next step, see Rebound
+  /// Offset of the memory in Pairs::memory, in doubles; of the neutral pair in unused lanes.
+  std::array<std::uint32_t, block_lanes> pair;
 
-  std::size_t entry(std::size_t lane) const { return pair[lane] / 4; }  // index in Pairs
+  static constexpr std::uint32_t memory_doubles = sizeof(PairMemory<D>) / sizeof(double);
+  std::size_t entry(std::size_t lane) const { return pair[lane] / memory_doubles; }  // in Pairs
 };
 
 /// Pairs of a class that act: scratch space of find_contacts.
 struct NearPairs {
   std::vector<std::uint32_t> pair;  // twice the index of the pair in Pairs
-  std::vector<std::uint32_t> i, j;  // twice the index of each body, as in Pairs
+  std::vector<std::uint32_t> i, j;  // as in Pairs
 };
 
 /// Contacts of a strip in one step.
+template <int D>
 struct StripContacts {
-  std::vector<ContactBlock> blocks;  // the first `size` are in use; never shrinks
-  std::vector<std::uint32_t> ends;   // end of each run, as in BlockRuns
-  std::vector<BlockOrigin> origins;
+  std::vector<ContactBlock<D>> blocks;  // the first `size` are in use; never shrinks
+  std::vector<std::uint32_t> ends;      // end of each run, as in BlockRuns
+  std::vector<BlockOrigin<D>> origins;
   NearPairs near;
   /// One bit per listed pair, eight in a byte: the pair acts in this step; in the previous step.
   std::vector<std::uint8_t> acting, acted;
   std::size_t size = 0;     // number of blocks in use
   std::size_t on_base = 0;  // index of the first block whose partners j do not move
   std::size_t count = 0;    // number of contacts
-  BlockRuns used(Range bodies) { return {std::span(blocks).first(size), ends, bodies}; }
+  BlockRuns<D> used(Range bodies) { return {std::span(blocks).first(size), ends, bodies}; }
 };
 
 /// Contact law of a step, and the state to which it is applied.
+template <int D>
 struct DetectionRule {
-  std::span<const Vec2> ahead;     // m, positions after the forecast (LawParameters)
-  std::span<const Vec2> middle;    // m, positions at mid-step, which set the geometry of contacts
-  std::span<const Motion> motion;  // velocities at the beginning of the step
-  std::span<const Wall> walls;
+  std::span<const Position<D>> ahead;  // m, positions after the forecast (LawParameters)
+  std::span<const Position<D>>
+      middle;  // m, positions at mid-step, which set the geometry of contacts
+  std::span<const Motion<D>> motion;  // velocities at the beginning of the step
+  std::span<const Wall<D>> walls;
   double margin = 0;  // m, LawParameters::margin
   double restitution = 0;
   double horizon = 0;  // s, LawParameters::horizon times the step
-  double rim_factor = disc_rim_factor;
+  double rim_factor = grseg::rim_factor<D>;
   /// Effects to compute. Leaving out an effect has the same results to the last bit as its neutral
   /// coefficient: restitution 0, rim_factor 0, shifts 0.
   Effects effects;
@@ -69,25 +76,30 @@ struct DetectionSums {
 };
 
 /// Finds the contacts of every strip; returns their sums, added strip by strip.
-DetectionSums find_contacts(const Pairs& pairs, const DetectionRule& rule,
-                            std::vector<StripContacts>& contacts, int threads = 1);
+template <int D>
+DetectionSums find_contacts(const Pairs<D>& pairs, const DetectionRule<D>& rule,
+                            std::vector<StripContacts<D>>& contacts, int threads = 1);
 
 /// Undoes the last find_contacts: the pairs of the previous step count as acting again.
-void forget_search(std::vector<StripContacts>& contacts);
+template <int D>
+void forget_search(std::vector<StripContacts<D>>& contacts);
 
 /// Sums over the contacts after the solve.
+template <int D>
 struct ImpulseSums {
-  std::size_t force_bearing = 0;     // number of contacts with an impulse
-  double gap_bearing = 0;            // m, sum of |gap| over contacts with an impulse
-  Vec2 on_base_side = Vec2::Zero();  // kg m/s, impulse of walls and base on mobile grains
+  std::size_t force_bearing = 0;               // number of contacts with an impulse
+  double gap_bearing = 0;                      // m, sum of |gap| over contacts with an impulse
+  Vector<D> on_base_side = Vector<D>::Zero();  // kg m/s, impulse of walls and base on mobile grains
 };
 
 /// Stores the impulses and approaches of the contacts in the memories of their pairs.
-ImpulseSums keep_impulses(std::span<const StripContacts> contacts,
-                          std::span<Pairs::Memory> memories, int threads = 1);
+template <int D>
+ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts,
+                             std::span<PairMemory<D>> memories, int threads = 1);
 /// Clears the memories of pairs that acted in the previous step and do not act now. The pair list
 /// must be the same in both steps.
-void forget_impulses(const Pairs& pairs, std::span<const StripContacts> contacts,
-                     std::span<Pairs::Memory> memories, int threads = 1);
+template <int D>
+void forget_impulses(const Pairs<D>& pairs, std::span<const StripContacts<D>> contacts,
+                     std::span<PairMemory<D>> memories, int threads = 1);
 
 }  // namespace grseg

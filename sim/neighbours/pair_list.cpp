@@ -21,7 +21,8 @@ std::uint32_t whole_blocks(std::size_t pairs)
 }
 
 /// Returns the class of the pair a, b and marks its colour as taken by both bodies.
-std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState& grains,
+template <int D>
+std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState<D>& grains,
                        std::vector<PairColours::Taken>& taken)
 {
   static_assert(PairColours::palette == 65);
@@ -41,10 +42,20 @@ std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState& grain
   return static_cast<std::uint8_t>(PairColours::on_base + static_cast<std::size_t>(free));
 }
 
+template <int D>
+PairGeometry<D> geometry_of(const Along<D - 1, double>& shift, double reach)
+{
+  if constexpr (D == 2)
+    return {shift[0], reach};
+  else
+    return {shift[0], shift[1]};
+}
+
 }  // namespace
 
-void PairColours::colour(const FoundPairs& found, const CellGrid& grid, const GrainState& grains,
-                         int threads)
+template <int D>
+void PairColours::colour(const FoundPairs& found, const CellGrid<D>& grid,
+                         const GrainState<D>& grains, int threads)
 {
   taken.resize(grains.size());
   class_of.resize(found.size());
@@ -65,25 +76,28 @@ void PairColours::colour(const FoundPairs& found, const CellGrid& grid, const Gr
   });
 }
 
-PairList::PairList(const std::vector<Wall>& walls, const Box& box, double largest_radius,
-                   double skin, double margin, int threads)
+template <int D>
+PairList<D>::PairList(const std::vector<Wall<D>>& walls, const Box& box, double largest_radius,
+                      double skin, double margin, int threads)
     : walls_(walls.size()),
       skin_(skin),
-      length_(box.periodic_x ? box.length_x : 0),
-      inverse_length_(box.periodic_x ? 1 / box.length_x : 0),
       threads_(threads),
       search_(walls, box, 2 * largest_radius + skin, skin, threads),
       completeness_(walls, box, 2 * largest_radius + skin, skin, margin, threads)
 {
+  length_[0] = box.periodic_x ? box.length_x : 0;
+  if constexpr (D == 3) length_[1] = box.periodic_z ? box.length_z : 0;
 }
 
-bool PairList::complete(const std::vector<Vec2>& position, double farthest)
+template <int D>
+bool PairList<D>::complete(const std::vector<Position<D>>& position, double farthest)
 {
   return search_.made_at.size() == position.size() &&
          completeness_.holds(search_.made_at, position, farthest);
 }
 
-void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
+template <int D>
+void PairList<D>::renew(GrainState<D>& grains, const std::vector<Position<D>>& position)
 {
   ++renewals_;
   search_.find(grains, position);
@@ -97,7 +111,8 @@ void PairList::renew(GrainState& grains, const std::vector<Vec2>& position)
   carry_memories();
 }
 
-PairList::State PairList::state() const
+template <int D>
+auto PairList<D>::state() const -> State
 {
   State state;
   state.made_at = search_.made_at;
@@ -113,7 +128,8 @@ PairList::State PairList::state() const
   return state;
 }
 
-void PairList::restore(GrainState& grains, const State& state)
+template <int D>
+void PairList<D>::restore(GrainState<D>& grains, const State& state)
 {
   if (!state.made_at.empty()) renew(grains, state.made_at);
   const auto now = this->state();
@@ -122,11 +138,12 @@ void PairList::restore(GrainState& grains, const State& state)
         "this grseg-sim finds other pairs than the one that wrote the checkpoint; continue with "
         "the program that wrote it");
   for (std::size_t k = 0; k < pairs_.memory.size(); ++k)
-    pairs_.memory[k] = {state.impulse_n[k], state.impulse_t[k], state.approach[k], 0};
+    pairs_.memory[k] = {state.impulse_n[k], state.impulse_t[k], state.approach[k]};
   renewals_ = state.renewals;
 }
 
-void PairList::lay_out()
+template <int D>
+void PairList<D>::lay_out()
 {
   pairs_.classes.clear();
   pairs_.strips.assign(1, 0);
@@ -155,19 +172,29 @@ void PairList::lay_out()
   pairs_.memory.resize(begin + 1);
 }
 
-double PairList::nearest_shift(double difference) const
+template <int D>
+Along<D - 1, double> PairList<D>::nearest_shift(const Position<D>& difference) const
 {
-  return std::abs(difference) <= length_ / 2 ? 0
-                                             : -length_ * std::round(difference * inverse_length_);
+  Along<D - 1, double> shift{};
+  for (std::size_t k = 0; k < shift.size(); ++k) {
+    const double apart = difference[static_cast<Eigen::Index>(2 * k)], length = length_[k];
+    if (length > 0 && std::abs(apart) > length / 2)
+      shift[k] = -length * std::round(apart * (1 / length));
+  }
+  return shift;
 }
 
 /// Writes the pairs of a strip; the last strip also writes the neutral pair.
-void PairList::fill_in(std::size_t strip, const GrainState& grains)
+template <int D>
+void PairList<D>::fill_in(std::size_t strip, const GrainState<D>& grains)
 {
   auto& s = strips_[strip];
-  const auto nobody = static_cast<std::uint32_t>(2 * grains.immobile());
+  const auto offset = [](std::size_t body) {
+    return static_cast<std::uint32_t>(position_doubles<D> * body);
+  };
+  const auto nobody = offset(grains.immobile());
   const auto write = [&](std::size_t k, std::uint32_t i, std::uint32_t j,
-                         const Pairs::Geometry& geometry) {
+                         const PairGeometry<D>& geometry) {
     pairs_.i[k] = i;
     pairs_.j[k] = j;
     pairs_.geometry[k] = geometry;
@@ -184,56 +211,62 @@ void PairList::fill_in(std::size_t strip, const GrainState& grains)
       const auto c = colours_.class_of[f];
       if (c == PairColours::no_class) continue;
       const auto b = found.b[f];
-      const double shift = nearest_shift(made_at[a].x() - made_at[b].x());
+      const auto shift = nearest_shift(first ? made_at[a] - made_at[b] : made_at[b] - made_at[a]);
       const std::size_t k = number_[f] = s.next[c]++;
-      write(k, 2 * (first ? a : b), 2 * (first ? b : a),
-            {first ? shift : -shift, grains.radius[a] + grains.radius[b]});
+      write(k, offset(first ? a : b), offset(first ? b : a),
+            geometry_of<D>(shift, grains.radius[a] + grains.radius[b]));
     }
   }
   for (const auto& c : pairs_.classes_of(strip)) {
     if (c.wall < 0) continue;
     auto k = c.begin;
     for (const auto b : search_.strips[strip].at_wall[static_cast<std::size_t>(c.wall)])
-      write(k++, 2 * b, nobody, {0, grains.radius[b]});
+      write(k++, offset(b), nobody, geometry_of<D>({}, grains.radius[b]));
   }
-  std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, Pairs::Memory{});
+  std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, PairMemory<D>{});
   if (strip + 1 < strips_.size()) return;
-  write(s.end, nobody, nobody, {0, 1});
+  write(s.end, nobody, nobody, geometry_of<D>({}, 1));
   pairs_.memory[s.end] = {};
 }
 
-void PairList::forget()
+template <int D>
+void PairList<D>::forget()
 {
   pairs_.memory.assign(pairs_.i.size(), {});
 }
 
-void PairList::carry_wall_memory(std::uint32_t body, std::int32_t wall, std::uint32_t from)
+template <int D>
+void PairList<D>::carry_wall_memory(std::uint32_t body, std::int32_t wall, std::uint32_t from)
 {
   for (const auto& c : pairs_.classes) {
     if (c.wall != wall) continue;
     const auto first = pairs_.i.begin() + c.begin, last = pairs_.i.begin() + c.end;
-    const auto found = std::lower_bound(first, last, 2 * body);
-    if (found == last || *found != 2 * body) continue;
+    const auto found = std::lower_bound(first, last, position_doubles<D> * body);
+    if (found == last || *found != position_doubles<D> * body) continue;
     const auto to = static_cast<std::size_t>(found - pairs_.i.begin());
     pairs_.memory[to] = old_pairs_.memory[from];
   }
 }
 
-void PairList::carry_memories()
+template <int D>
+void PairList<D>::carry_memories()
 {
   const auto& old = old_pairs_;
   if (old.classes.empty() || pairs_.classes.empty()) return;
   const CarryOver task{old.i.data(),   old.j.data(),     search_.place.data(), &search_.found,
                        number_.data(), &old.memory[0].n, &pairs_.memory[0].n};
   for_each_part(threads_, old.classes.size(), [&](std::size_t n) {
-    if (old.classes[n].wall < 0) carry_over(task, old.classes[n].begin, old.classes[n].end);
+    if (old.classes[n].wall < 0) carry_over<D>(task, old.classes[n].begin, old.classes[n].end);
   });
   for (const auto& c : old.classes) {
     if (c.wall < 0) continue;
     for (auto k = c.begin; k < c.end; ++k)
-      if (old.memory[k].n != 0 || old.memory[k].t != 0)
-        carry_wall_memory(search_.place[old.i[k] / 2], c.wall, k);
+      if (old.memory[k].n != 0 || old.memory[k].t != Turning<D, double>{})
+        carry_wall_memory(search_.place[old.i[k] / position_doubles<D>], c.wall, k);
   }
 }
+
+template class PairList<2>;
+template class PairList<3>;
 
 }  // namespace grseg

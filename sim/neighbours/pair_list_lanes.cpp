@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/neighbours/pair_list_lanes.hpp"
 
+#include "sim/neighbours/pairs.hpp"
+
 #include <algorithm>
 #include <limits>
 
@@ -14,6 +16,22 @@
 #include "sim/contact/bodies-inl.hpp"
 // clang-format on
 
+#ifndef GRSEG_SIM_PAIR_LOOPS
+#define GRSEG_SIM_PAIR_LOOPS
+namespace grseg {
+namespace {
+/// The loops below, compiled for an instruction set.
+template <int D>
+struct PairLoops {
+  void (*measure)(std::span<const Position<D>> from, std::span<const Position<D>> to,
+                  std::span<const Range>, Extent<D>*);
+  void (*find_near)(const Members<D>&, const Search<D>&, double skin, FoundPairs&);
+  void (*carry_over)(const CarryOver&, std::uint32_t first, std::uint32_t last);
+};
+}  // namespace
+}  // namespace grseg
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace grseg {
 namespace HWY_NAMESPACE {
@@ -21,19 +39,21 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Extent of the displacements of a group of at least four bodies. Eight doubles (four bodies) are
-/// processed at a time; the last eight may include bodies that were already processed.
-HWY_INLINE Extent measure_group(const double* from, const double* to, Range group)
+/// Extent of the displacements of a group with at least eight numbers, which are processed eight at
+/// a time; the last eight may include bodies that were already processed.
+template <int D>
+HWY_INLINE Extent<D> measure_group(const double* from, const double* to, Range group)
 {
-  const D d;
-  constexpr std::size_t lanes = hn::MaxLanes(D()), parts = block_lanes / lanes;
+  const Doubles d;
+  constexpr std::size_t lanes = hn::MaxLanes(Doubles()), parts = block_lanes / lanes;
+  constexpr std::size_t per_body = position_doubles<D>;
   Vector low[parts], high[parts];
   for (std::size_t p = 0; p < parts; ++p) {
     low[p] = hn::Set(d, infinity);
     high[p] = hn::Set(d, -infinity);
   }
-  const std::size_t end = 2 * std::size_t{group.end};
-  for (std::size_t k = 2 * std::size_t{group.begin}; k < end; k += block_lanes) {
+  const std::size_t end = per_body * std::size_t{group.end};
+  for (std::size_t k = per_body * std::size_t{group.begin}; k < end; k += block_lanes) {
     const std::size_t at = std::min(k, end - block_lanes);
     for (std::size_t p = 0; p < parts; ++p) {
       const auto displacement =
@@ -44,91 +64,116 @@ HWY_INLINE Extent measure_group(const double* from, const double* to, Range grou
   }
   alignas(64) Lanes l, h;
   for (std::size_t p = 0; p < parts; ++p) {
-    hn::Store(low[p], d, &l[p * lanes]);
-    hn::Store(high[p], d, &h[p * lanes]);
+    store(low[p], l, p * lanes);
+    store(high[p], h, p * lanes);
   }
-  const auto least = [&](std::size_t c) { return std::min({l[c], l[c + 2], l[c + 4], l[c + 6]}); };
-  const auto most = [&](std::size_t c) { return std::max({h[c], h[c + 2], h[c + 4], h[c + 6]}); };
-  return {Vec2(least(0), least(1)), Vec2(most(0), most(1))};
+  Extent<D> extent;
+  for (std::size_t k = 0; k < block_lanes; k += per_body)
+    for (std::size_t c = 0; c < D; ++c) {
+      const auto row = static_cast<Eigen::Index>(c);
+      extent.min()[row] = std::min(extent.min()[row], l[k + c]);
+      extent.max()[row] = std::max(extent.max()[row], h[k + c]);
+    }
+  return extent;
 }
 
-void measure(const double* from, const double* to, std::span<const Range> groups, Extent* moved)
+template <int D>
+void measure(std::span<const Position<D>> from, std::span<const Position<D>> to,
+             std::span<const Range> groups, Extent<D>* moved)
 {
   for (const auto& group : groups) {
     auto& extent = *moved++;
-    if (group.end - group.begin >= block_lanes / 2) {
-      extent = measure_group(from, to, group);
+    if ((group.end - group.begin) * position_doubles<D> >= block_lanes) {
+      extent = measure_group<D>(from.data()->data(), to.data()->data(), group);
       continue;
     }
     extent.setEmpty();
-    for (std::size_t b = group.begin; b < group.end; ++b)
-      extent.extend(Vec2(to[2 * b] - from[2 * b], to[2 * b + 1] - from[2 * b + 1]));
+    for (std::size_t b = group.begin; b < group.end; ++b) extent.extend(point<D>(to[b] - from[b]));
   }
   leave_vectors();
 }
 
-/// Finds the partners of body `a` in a range of bodies, to whose x `offset` is added. Writes them
-/// to `found` after the `count` partners found so far, and adds to `count`.
-template <bool periodic>
-HWY_INLINE void find_with(const Discs& discs, std::size_t a, Range range, double skin,
-                          double offset, double length, std::uint32_t* found, std::size_t& count)
+/// Finds the partners of body `a` in a range of bodies, to whose x and z `part.shift` is added.
+/// Writes them to `found` after the `count` partners found so far, and adds to `count`.
+template <bool periodic, int D>
+HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
+                          const typename Search<D>::Part& part, double skin,
+                          const Along<D - 1, double>& period, std::uint32_t* found,
+                          std::size_t& count)
 {
-  const D d;
-  const auto x = hn::Set(d, discs.x[a] - offset), y = hn::Set(d, discs.y[a]);
-  const auto reach = hn::Set(d, discs.radius[a] + skin);
-  for (std::size_t b = range.begin; b < range.end; b += block_lanes) {
+  const Doubles d;
+  constexpr auto periodic_axis = [](std::size_t axis) { return axis / 2; };  // x or z
+  const auto own = components<D>([&](std::size_t k) HWY_ATTR {
+    return hn::Set(d, k == 1 ? members.x[k][a] : members.x[k][a] - part.shift[periodic_axis(k)]);
+  });
+  const auto reach = hn::Set(d, members.radius[a] + skin);
+  for (std::size_t b = part.bodies.begin; b < part.bodies.end; b += block_lanes) {
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const std::size_t at = b + lane;
-      auto dx = hn::Sub(x, hn::LoadU(d, &discs.x[at]));
-      if constexpr (periodic) {
-        const auto periods = hn::Round(hn::Mul(dx, hn::Set(d, 1 / length)));
-        dx = hn::Sub(dx, hn::Mul(hn::Set(d, length), periods));
-      }
-      const auto dy = hn::Sub(y, hn::LoadU(d, &discs.y[at]));
-      const auto near = hn::Add(reach, hn::LoadU(d, &discs.radius[at]));
-      const auto squared = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-      bits |= bits_of(d, hn::Le(squared, hn::Mul(near, near))) << lane;
+      const auto apart = components<D>([&](std::size_t k) HWY_ATTR {
+        const auto difference = hn::Sub(own[k], hn::LoadU(d, &members.x[k][at]));
+        if (!periodic || k == 1) return difference;
+        const double length = period[periodic_axis(k)];
+        const auto periods =
+            hn::Round(hn::Mul(difference, hn::Set(d, length > 0 ? 1 / length : 0)));
+        return hn::Sub(difference, hn::Mul(hn::Set(d, length), periods));
+      });
+      const auto near = hn::Add(reach, hn::LoadU(d, &members.radius[at]));
+      bits |= bits_of(d, hn::Le(dot(apart, apart), hn::Mul(near, near))) << lane;
     }
-    const std::size_t left = range.end - b;
+    const std::size_t left = part.bodies.end - b;
     if (left < block_lanes) bits &= (1U << left) - 1;
     store_set_bits<1>(bits, b, found + count);
     count += hwy::PopCount(std::uint64_t{bits});
   }
 }
 
-template <bool periodic>
-HWY_INLINE void find_near_of(const Discs& discs, const Search& s, double skin, FoundPairs& found)
+template <bool periodic, int D>
+HWY_INLINE void find_near_of(const Members<D>& members, const Search<D>& s, double skin,
+                             FoundPairs& found)
 {
   auto* b = found.b.data();
   std::size_t count = found.begin.back();
   for (auto a = s.cell.begin; a < s.cell.end; ++a) {
-    find_with<periodic>(discs, a, {a + 1, s.end}, skin, 0, s.length, b, count);
-    find_with<periodic>(discs, a, s.above, skin, 0, s.length, b, count);
-    find_with<periodic>(discs, a, s.across, skin, s.offset, s.length, b, count);
-    find_with<periodic>(discs, a, s.across_above, skin, s.offset, s.length, b, count);
+    find_with<periodic, D>(members, a, {{a + 1, s.end}, {}}, skin, s.period, b, count);
+    for (std::size_t p = 0; p < s.count; ++p)
+      find_with<periodic, D>(members, a, s.parts[p], skin, s.period, b, count);
     found.begin.push_back(static_cast<std::uint32_t>(count));
   }
   leave_vectors();
 }
 
-void find_near_for(const Discs& discs, const Search& search, double skin, FoundPairs& found)
+template <int D>
+void find_near_for(const Members<D>& members, const Search<D>& search, double skin,
+                   FoundPairs& found)
 {
-  if (search.length > 0)
-    find_near_of<true>(discs, search, skin, found);
+  if (std::any_of(search.period.begin(), search.period.end(), [](double p) { return p > 0; }))
+    find_near_of<true, D>(members, search, skin, found);
   else
-    find_near_of<false>(discs, search, skin, found);
+    find_near_of<false, D>(members, search, skin, found);
 }
 
+template <int D>
+constexpr std::uint32_t memory_doubles = sizeof(PairMemory<D>) / sizeof(double);
+
 /// One bit for each of eight memories: 1 if it has an impulse.
+template <int D>
 HWY_INLINE std::uint32_t bearing(const double* memory)
 {
-  const D d;
-  static constexpr std::uint32_t rows[block_lanes] = {0, 4, 8, 12, 16, 20, 24, 28};
+  const Doubles d;
+  static constexpr auto rows = [] {
+    std::array<std::uint32_t, block_lanes> offsets{};
+    for (std::uint32_t k = 0; k < block_lanes; ++k) offsets[k] = memory_doubles<D> * k;
+    return offsets;
+  }();
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto [n, t, approach, unused] = load_bodies(d, memory, rows + lane);
-    bits |= bits_of(d, hn::Not(both(n == hn::Zero(d), t == hn::Zero(d)))) << lane;
+    const auto memories = load_fours(d, memory, &rows[lane]);
+    auto none = memories[0] == hn::Zero(d);
+    for (std::size_t k = 1; k < 1 + std::tuple_size_v<Turning<D, double>>; ++k)
+      none = both(none, memories[k] == hn::Zero(d));
+    bits |= bits_of(d, hn::Not(none)) << lane;
   }
   return bits;
 }
@@ -147,20 +192,34 @@ HWY_INLINE std::size_t find_pair(const FoundPairs& found, std::uint32_t a, std::
   return found.size();
 }
 
+template <int D>
 void carry_all(const CarryOver& task, std::uint32_t first, std::uint32_t last)
 {
+  constexpr std::size_t size = memory_doubles<D>;
   const auto& found = *task.found;
   for (std::size_t eight = first; eight < last; eight += block_lanes) {
-    for (auto bits = bearing(task.memory + 4 * eight); bits != 0; bits &= bits - 1) {
+    for (auto bits = bearing<D>(task.memory + size * eight); bits != 0; bits &= bits - 1) {
       const std::size_t k = eight + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      const auto i = task.place[task.i[k] / 2], j = task.place[task.j[k] / 2];
+      const auto i = task.place[task.i[k] / position_doubles<D>],
+                 j = task.place[task.j[k] / position_doubles<D>];
       auto f = find_pair(found, std::min(i, j), std::max(i, j));
       if (f == found.size()) f = find_pair(found, std::max(i, j), std::min(i, j));
       if (f == found.size()) continue;
-      std::copy_n(task.memory + 4 * k, 4, task.to_memory + 4 * std::size_t{task.number[f]});
+      std::copy_n(task.memory + size * k, size,
+                  task.to_memory + size * std::size_t{task.number[f]});
     }
   }
   leave_vectors();
+}
+
+// Dispatch accepts no templates.
+PairLoops<2> loops_for_discs()
+{
+  return {measure<2>, find_near_for<2>, carry_all<2>};
+}
+PairLoops<3> loops_for_spheres()
+{
+  return {measure<3>, find_near_for<3>, carry_all<3>};
 }
 
 }  // namespace
@@ -172,34 +231,53 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(measure);
-HWY_EXPORT(find_near_for);
-HWY_EXPORT(carry_all);
+HWY_EXPORT(loops_for_discs);
+HWY_EXPORT(loops_for_spheres);
+
+template <int D>
+PairLoops<D> loops()
+{
+  if constexpr (D == 2)
+    return HWY_DYNAMIC_DISPATCH(loops_for_discs)();
+  else
+    return HWY_DYNAMIC_DISPATCH(loops_for_spheres)();
+}
 
 }  // namespace
 
-void measure_displacements(std::span<const Vec2> from, std::span<const Vec2> to,
-                           std::span<const Range> groups, std::span<Extent> moved)
+template <int D>
+void measure_displacements(std::span<const Position<D>> from, std::span<const Position<D>> to,
+                           std::span<const Range> groups, std::span<Extent<D>> moved)
 {
-  HWY_DYNAMIC_DISPATCH(measure)
-  (from.data()->data(), to.data()->data(), groups, moved.data());
+  loops<D>().measure(from, to, groups, moved.data());
 }
 
-void find_near(const Discs& discs, const Search& search, double skin, FoundPairs& found)
+template <int D>
+void find_near(const Members<D>& members, const Search<D>& search, double skin, FoundPairs& found)
 {
-  // Space for all possible pairs and one vector more, because only whole vectors are stored.
+  // Vectors are stored whole: room for all that could be found, and for one more vector.
   const auto size = [](Range range) { return std::size_t{range.end} - range.begin; };
-  const std::size_t partners = search.end - search.cell.begin + size(search.above) +
-                               size(search.across) + size(search.across_above);
+  std::size_t partners = search.end - search.cell.begin;
+  for (std::size_t p = 0; p < search.count; ++p) partners += size(search.parts[p].bodies);
   const std::size_t room = found.begin.back() + size(search.cell) * partners + block_lanes;
   if (found.b.size() < room) found.b.resize(2 * room);
-  HWY_DYNAMIC_DISPATCH(find_near_for)(discs, search, skin, found);
+  loops<D>().find_near(members, search, skin, found);
 }
 
+template <int D>
 void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last)
 {
-  HWY_DYNAMIC_DISPATCH(carry_all)(task, first, last);
+  loops<D>().carry_over(task, first, last);
 }
+
+template void measure_displacements<2>(std::span<const Position<2>>, std::span<const Position<2>>,
+                                       std::span<const Range>, std::span<Extent<2>>);
+template void measure_displacements<3>(std::span<const Position<3>>, std::span<const Position<3>>,
+                                       std::span<const Range>, std::span<Extent<3>>);
+template void find_near(const Members<2>&, const Search<2>&, double, FoundPairs&);
+template void find_near(const Members<3>&, const Search<3>&, double, FoundPairs&);
+template void carry_over<2>(const CarryOver&, std::uint32_t, std::uint32_t);
+template void carry_over<3>(const CarryOver&, std::uint32_t, std::uint32_t);
 
 }  // namespace grseg
 #endif  // HWY_ONCE

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace grseg {
 namespace {
@@ -24,26 +25,26 @@ std::int32_t nearest_index(double x, std::int32_t count)
 
 }  // namespace
 
-CellGrid::CellGrid(const Box& box, double cell, int threads)
-    : length_(box.periodic_x ? box.length_x : 0),
-      inverse_length_(box.periodic_x ? 1 / box.length_x : 0),
-      cell_(cell),
-      threads_(threads)
+template <int D>
+CellGrid<D>::CellGrid(const Box& box, double cell, int threads) : cell_(cell), threads_(threads)
 {
+  length_[0] = box.periodic_x ? box.length_x : 0;
+  if constexpr (D == 3) length_[1] = box.periodic_z ? box.length_z : 0;
 }
 
-void CellGrid::sort(std::span<const Vec2> position)
+template <int D>
+void CellGrid<D>::sort(std::span<const Position<D>> position)
 {
   lay(position);
   cut_into_strips(position.size());
-  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(bands_);
+  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(bands_) *
+                     static_cast<std::size_t>(slices_);
   begin_.assign(cells + 1, 0);
   cell_of_.resize(position.size());
   order_.resize(position.size());
   for_ranges(threads_, position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g)
-      cell_of_[g] =
-          static_cast<std::uint32_t>(cell(column(position[g].x()), band(position[g].y())));
+      cell_of_[g] = static_cast<std::uint32_t>(cell_at(wrapped(point<D>(position[g]))));
   });
   for (const auto c : cell_of_) ++begin_[c + 1];
   for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
@@ -52,34 +53,44 @@ void CellGrid::sort(std::span<const Vec2> position)
     order_[next_[cell_of_[g]]++] = static_cast<std::uint32_t>(g);
 }
 
-void CellGrid::lay(std::span<const Vec2> position)
+template <int D>
+void CellGrid<D>::lay(std::span<const Position<D>> position)
 {
-  Vec2 low = position.front(), high = low;
+  Vector<D> low = point<D>(position.front()), high = low;
   for (const auto& x : position) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
+    low = low.cwiseMin(point<D>(x));
+    high = high.cwiseMax(point<D>(x));
   }
   bottom_ = low.y();
-  left_ = length_ > 0 ? 0 : low.x();
-  const double width = length_ > 0 ? length_ : high.x() - low.x();
   // A limit to the number of cells, so that a grain that flies far away costs no memory: grains
   // beyond the grid belong to the last cells.
   const double most = 4.0 * static_cast<double>(position.size()) + 16;
-  columns_ = static_cast<std::int32_t>(std::clamp(std::floor(width / cell_), 1.0, most));
-  if (length_ > 0 && columns_ < 3) columns_ = 1;
-  column_width_ = std::max(width / columns_, std::numeric_limits<double>::min());
+  // Returns the number of cells across, the first one's border and the width of a cell.
+  const auto divide = [&](double period, double from, double to, double most_cells) {
+    const double width = period > 0 ? period : to - from;
+    auto count = static_cast<std::int32_t>(std::clamp(std::floor(width / cell_), 1.0, most_cells));
+    if (period > 0 && count < 3) count = 1;
+    return std::tuple(count, period > 0 ? 0 : from,
+                      std::max(width / count, std::numeric_limits<double>::min()));
+  };
+  std::tie(columns_, left_, column_width_) = divide(length_[0], low.x(), high.x(), most);
   columns_per_metre_ = 1 / column_width_;
-  const double height = high.y() - low.y();
-  bands_ =
-      static_cast<std::int32_t>(std::clamp(std::ceil(height / cell_), 1.0, most / columns_ + 1));
+  if constexpr (D == 3) {
+    double width = 0;
+    std::tie(slices_, front_, width) = divide(length_[1], low.z(), high.z(), most / columns_ + 1);
+    slices_per_metre_ = 1 / width;
+  }
+  bands_ = static_cast<std::int32_t>(
+      std::clamp(std::ceil((high.y() - low.y()) / cell_), 1.0, most / (columns_ * slices_) + 1));
 }
 
-void CellGrid::cut_into_strips(std::size_t grains)
+template <int D>
+void CellGrid<D>::cut_into_strips(std::size_t grains)
 {
   auto count =
       std::min(static_cast<std::int32_t>(grains < cut_from ? 1 : grains / grains_per_strip),
                columns_ / least_columns_per_strip);
-  if (length_ > 0) count -= count % 2;
+  if (length_[0] > 0) count -= count % 2;
   count = std::max(count, 1);
   first_column_.resize(static_cast<std::size_t>(count) + 1);
   base_.resize(static_cast<std::size_t>(columns_));
@@ -91,75 +102,110 @@ void CellGrid::cut_into_strips(std::size_t grains)
     first_column_[static_cast<std::size_t>(s) + 1] = last;
     for (auto c = first; c < last; ++c) {
       base_[static_cast<std::size_t>(c)] =
-          static_cast<std::size_t>(bands_) * static_cast<std::size_t>(first) +
+          static_cast<std::size_t>(bands_ * slices_) * static_cast<std::size_t>(first) +
           static_cast<std::size_t>(c - first);
       width_[static_cast<std::size_t>(c)] = static_cast<std::size_t>(last - first);
     }
   }
 }
 
-Range CellGrid::bodies_of_strip(std::size_t strip) const
+template <int D>
+Range CellGrid<D>::bodies_of_strip(std::size_t strip) const
 {
-  return {begin_[cell(first_column_[strip], 0)],
-          begin_[cell(first_column_[strip + 1] - 1, bands_ - 1) + 1]};
+  return {begin_[cell(first_column_[strip], 0, 0)],
+          begin_[cell(first_column_[strip + 1] - 1, bands_ - 1, slices_ - 1) + 1]};
 }
 
-double CellGrid::wrapped(double x) const
+template <int D>
+Vector<D> CellGrid<D>::wrapped(const Vector<D>& position) const
 {
-  if (length_ == 0 || (x >= 0 && x < length_)) return x;
-  return x - length_ * std::floor(x * inverse_length_);
+  const auto wrap = [](double x, double length) {
+    if (length == 0 || (x >= 0 && x < length)) return x;
+    return x - length * std::floor(x * (1 / length));
+  };
+  Vector<D> inside = position;
+  inside.x() = wrap(position.x(), length_[0]);
+  if constexpr (D == 3) inside.z() = wrap(position.z(), length_[1]);
+  return inside;
 }
 
-std::int32_t CellGrid::column(double x) const
+/// `position` is wrapped.
+template <int D>
+std::size_t CellGrid<D>::cell_at(const Vector<D>& position) const
 {
-  return nearest_index((wrapped(x) - left_) * columns_per_metre_, columns_);
+  std::int32_t slice = 0;
+  if constexpr (D == 3) slice = nearest_index((position.z() - front_) * slices_per_metre_, slices_);
+  return cell(nearest_index((position.x() - left_) * columns_per_metre_, columns_),
+              nearest_index((position.y() - bottom_) / cell_, bands_), slice);
 }
 
-std::int32_t CellGrid::band(double y) const
+/// Rows (bodies of a band and slice) that follow the one of a cell and are its neighbours.
+/// `shift_z` is added to z of their bodies.
+template <int D>
+auto CellGrid<D>::rows_after(std::int32_t band, std::int32_t slice) const -> std::vector<Row>
 {
-  return nearest_index((y - bottom_) / cell_, bands_);
+  std::vector<Row> rows;
+  const auto add = [&](std::int32_t up, std::int32_t on) {
+    auto other = slice + on;
+    double shift = 0;
+    if (other < 0 || other >= slices_) {
+      if (D == 2 || length_[D - 2] == 0 || slices_ == 1) return;
+      shift = other < 0 ? -length_[D - 2] : length_[D - 2];
+      other += other < 0 ? slices_ : -slices_;
+    }
+    if (band + up < bands_) rows.push_back({band + up, other, shift});
+  };
+  add(1, 0);
+  if constexpr (D == 3) add(0, 1), add(1, -1), add(1, 1);
+  return rows;
 }
 
-Search CellGrid::search(std::size_t strip, std::int32_t column, std::int32_t band) const
+template <int D>
+Search<D> CellGrid<D>::search(std::size_t strip, std::int32_t column, std::int32_t band,
+                              std::int32_t slice) const
 {
   const auto first = first_column_[strip], last = first_column_[strip + 1] - 1;
-  const bool above = band + 1 < bands_;
   const auto left = std::max(column - 1, first), right = std::min(column + 1, last);
-  Search search;
-  search.cell = bodies(column, column, band);
-  search.end = bodies(column, right, band).end;
-  if (above) search.above = bodies(left, right, band + 1);
-  if (columns_ == 1) {
-    search.length = length_;  // the nearest image may be on either side
-    return search;
-  }
-  if (column == first && above) {
-    const bool wraps = column == 0;
-    if (!wraps || length_ > 0) {
-      const auto other = wraps ? columns_ - 1 : column - 1;
-      search.across_above = bodies(other, other, band + 1);
-      search.offset = wraps ? -length_ : 0;
-    }
-  }
-  if (column == last) {
-    const bool wraps = column == columns_ - 1;
-    if (!wraps || length_ > 0) {
-      const auto other = wraps ? 0 : column + 1;
-      search.across = bodies(other, other, band);
-      if (above) search.across_above = bodies(other, other, band + 1);
-      search.offset = wraps ? length_ : 0;
-    }
+  const auto shift = [](double x, [[maybe_unused]] double z) -> Along<D - 1, double> {
+    if constexpr (D == 2)
+      return {x};
+    else
+      return {x, z};
+  };
+  Search<D> search;
+  search.cell = bodies(column, column, band, slice);
+  search.end = bodies(column, right, band, slice).end;
+  const auto rows = rows_after(band, slice);
+  for (const auto& row : rows)
+    search.add(bodies(left, right, row.band, row.slice), shift(0, row.shift_z));
+  // The nearest image may be on either side.
+  search.period = shift(columns_ == 1 ? length_[0] : 0, slices_ == 1 ? length_[D - 2] : 0);
+  if (columns_ == 1) return search;
+  // Bodies beyond the border of the strip on the left (step -1) or on the right.
+  const auto add_beyond = [&](const Row& row, std::int32_t step) {
+    const bool wraps = column + step < 0 || column + step >= columns_;
+    if (wraps && length_[0] == 0) return;
+    const auto other = wraps ? column + step - step * columns_ : column + step;
+    search.add(bodies(other, other, row.band, row.slice),
+               shift(wraps ? step * length_[0] : 0, row.shift_z));
+  };
+  if (column == last) add_beyond({band, slice, 0}, 1);
+  for (const auto& row : rows) {
+    if (column == first) add_beyond(row, -1);
+    if (column == last) add_beyond(row, 1);
   }
   return search;
 }
 
-PairSearch::PairSearch(const std::vector<Wall>& walls, const Box& box, double cell, double skin,
-                       int threads)
+template <int D>
+PairSearch<D>::PairSearch(const std::vector<Wall<D>>& walls, const Box& box, double cell,
+                          double skin, int threads)
     : grid(box, cell, threads), walls_(walls), skin_(skin), threads_(threads)
 {
 }
 
-void PairSearch::find(GrainState& grains, const std::vector<Vec2>& position)
+template <int D>
+void PairSearch<D>::find(GrainState<D>& grains, const std::vector<Position<D>>& position)
 {
   sort_along_cells(grains, position);
   strips.resize(grid.strips());
@@ -167,14 +213,17 @@ void PairSearch::find(GrainState& grains, const std::vector<Vec2>& position)
     auto& pairs = strips[s].found;
     pairs.begin.assign(1, 0);
     for (std::int32_t band = 0; band < grid.bands(); ++band)
-      for (auto c = grid.first_column(s); c < grid.first_column(s + 1); ++c)
-        find_near(discs_, grid.search(s, c, band), skin_, pairs);
+      for (std::int32_t slice = 0; slice < grid.slices(); ++slice)
+        for (auto c = grid.first_column(s); c < grid.first_column(s + 1); ++c)
+          find_near(members_, grid.search(s, c, band, slice), skin_, pairs);
     find_wall_pairs(s, grains);
   });
   join_found(grains.size());
 }
 
-void PairSearch::sort_along_cells(GrainState& grains, const std::vector<Vec2>& position)
+template <int D>
+void PairSearch<D>::sort_along_cells(GrainState<D>& grains,
+                                     const std::vector<Position<D>>& position)
 {
   const std::size_t count = grains.size();
   grid.sort(std::span(position).first(count));
@@ -183,7 +232,8 @@ void PairSearch::sort_along_cells(GrainState& grains, const std::vector<Vec2>& p
   place[count] = static_cast<std::uint32_t>(count);
   made_at.resize(position.size());
   made_at[count] = position[count];
-  for (auto* values : {&discs_.x, &discs_.y, &discs_.radius}) values->resize(count + block_lanes);
+  for (auto& values : members_.x) values.resize(count + block_lanes);
+  members_.radius.resize(count + block_lanes);
   sorted_.resize_like(grains);
   for_ranges(threads_, count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
@@ -195,15 +245,16 @@ void PairSearch::sort_along_cells(GrainState& grains, const std::vector<Vec2>& p
       sorted_.radius[g] = grains.radius[old];
       sorted_.image[g] = grains.image[old];
       sorted_.row[g] = grains.row[old];
-      discs_.x[g] = grid.wrapped(position[old].x());
-      discs_.y[g] = position[old].y();
-      discs_.radius[g] = grains.radius[old];
+      const Vector<D> at = grid.wrapped(point<D>(position[old]));
+      for (std::size_t k = 0; k < D; ++k) members_.x[k][g] = at[static_cast<Eigen::Index>(k)];
+      members_.radius[g] = grains.radius[old];
     }
   });
   std::swap(grains, sorted_);
 }
 
-void PairSearch::find_wall_pairs(std::size_t strip, const GrainState& grains)
+template <int D>
+void PairSearch<D>::find_wall_pairs(std::size_t strip, const GrainState<D>& grains)
 {
   auto& at_wall = strips[strip].at_wall;
   at_wall.resize(walls_.size());
@@ -212,13 +263,14 @@ void PairSearch::find_wall_pairs(std::size_t strip, const GrainState& grains)
     at_wall[w].clear();
     for (auto b = bodies.begin; b < bodies.end; ++b) {
       if (!(grains.motion[b].inverse_mass > 0)) continue;
-      const double gap = distance_to(walls_[w], made_at[b]) - grains.radius[b];
+      const double gap = distance_to<D>(walls_[w], point<D>(made_at[b])) - grains.radius[b];
       if (!(gap > skin_)) at_wall[w].push_back(b);
     }
   }
 }
 
-void PairSearch::join_found(std::size_t grains)
+template <int D>
+void PairSearch<D>::join_found(std::size_t grains)
 {
   std::vector<std::uint32_t> first(strips.size() + 1, 0);
   for (std::size_t s = 0; s < strips.size(); ++s)
@@ -234,5 +286,10 @@ void PairSearch::join_found(std::size_t grains)
     std::copy_n(own.b.begin(), own.size(), found.b.begin() + first[s]);
   });
 }
+
+template class CellGrid<2>;
+template class CellGrid<3>;
+template struct PairSearch<2>;
+template struct PairSearch<3>;
 
 }  // namespace grseg

@@ -24,15 +24,33 @@ constexpr std::int32_t format_version = 1;
 
 static_assert(std::endian::native == std::endian::little, "files and memory are little-endian");
 
-/// Number of columns of a dataset of T: a Vec2 is a row of 2 numbers, a Wall of 4.
+/// Numbers that make up a T: a vector or a Wall is a row of a dataset.
 template <class T>
-constexpr hsize_t columns_of = std::is_same_v<T, Vec2>   ? 2
-                               : std::is_same_v<T, Wall> ? 4
-                                                         : 1;
+struct Row {
+  using Number = T;
+  static constexpr hsize_t columns = 1;
+};
+template <int n>
+struct Row<Eigen::Matrix<double, n, 1>> {
+  using Number = double;
+  static constexpr hsize_t columns = n;
+};
+template <>
+struct Row<SpherePosition> : Row<Eigen::Vector4d> {};
+template <class T, std::size_t n>
+struct Row<std::array<T, n>> {
+  using Number = T;
+  static constexpr hsize_t columns = n;
+};
+template <int D>
+struct Row<Wall<D>> {
+  using Number = double;
+  static constexpr hsize_t columns = 2 * hsize_t{D};
+};
 template <class T>
-constexpr int rank_of = columns_of<T> > 1 ? 2 : 1;
+constexpr int rank_of = Row<T>::columns > 1 ? 2 : 1;
 template <class T>
-constexpr bool is_real = std::is_same_v<T, double> || columns_of<T> > 1;
+constexpr bool is_real = std::is_same_v<typename Row<T>::Number, double>;
 template <class T>
 constexpr H5T_class_t kind_of = is_real<T> ? H5T_FLOAT : H5T_INTEGER;
 
@@ -40,14 +58,15 @@ constexpr H5T_class_t kind_of = is_real<T> ? H5T_FLOAT : H5T_INTEGER;
 template <class T>
 hid_t type_of()
 {
+  using Number = typename Row<T>::Number;
   if constexpr (is_real<T>)
     return H5T_IEEE_F64LE;
-  else if constexpr (sizeof(T) == 1)
+  else if constexpr (sizeof(Number) == 1)
     return H5T_STD_U8LE;
-  else if constexpr (sizeof(T) == 4)
-    return std::is_unsigned_v<T> ? H5T_STD_U32LE : H5T_STD_I32LE;
+  else if constexpr (sizeof(Number) == 4)
+    return std::is_unsigned_v<Number> ? H5T_STD_U32LE : H5T_STD_I32LE;
   else
-    return std::is_unsigned_v<T> ? H5T_STD_U64LE : H5T_STD_I64LE;
+    return std::is_unsigned_v<Number> ? H5T_STD_U64LE : H5T_STD_I64LE;
 }
 
 struct Writer {
@@ -62,7 +81,7 @@ struct Writer {
   void operator()(const char* path, const std::vector<T>& values) const
   {
     std::vector<hsize_t> shape{values.size()};
-    if (rank_of<T> == 2) shape.push_back(columns_of<T>);
+    if (rank_of<T> == 2) shape.push_back(Row<T>::columns);
     write_fixed(file, path, type_of<T>(), type_of<T>(), shape, values.data());
   }
   template <class T>
@@ -88,7 +107,7 @@ struct Reader {
   void operator()(const char* path, std::vector<T>& values) const
   {
     const CheckedDataset dataset(file, path, kind_of<T>, rank_of<T>, name);
-    if (rank_of<T> == 2) dataset.require(1, columns_of<T>);
+    if (rank_of<T> == 2) dataset.require(1, Row<T>::columns);
     dataset.require_possible(dataset.dims()[0]);
     values.resize(dataset.dims()[0]);
     dataset.read_all(type_of<T>(), values.data());
@@ -106,7 +125,8 @@ struct Reader {
   }
 };
 
-std::uint64_t digest_of(const Checkpoint& checkpoint)
+template <int D>
+std::uint64_t digest_of(const Checkpoint<D>& checkpoint)
 {
   Digester digester;
   const auto add = [&](const char*, const auto& value) { digester.add(value); };
@@ -114,7 +134,8 @@ std::uint64_t digest_of(const Checkpoint& checkpoint)
   return digester.digest();
 }
 
-void write_parts(const std::string& path, const Checkpoint& checkpoint)
+template <int D>
+void write_parts(const std::string& path, const Checkpoint<D>& checkpoint)
 {
   File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, without_time(), newest_format()));
   if (!file.valid()) throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));
@@ -139,7 +160,7 @@ File open_checkpoint(const std::string& path)
   }
 }
 
-Checkpoint read_parts(const std::string& path)
+AnyCheckpoint read_parts(const std::string& path)
 {
   const auto fail = [&](const std::string& why) {
     throw FormatError(fmt::format("{}: {}", path, why));
@@ -155,14 +176,20 @@ Checkpoint read_parts(const std::string& path)
         fmt::format("is a checkpoint of version {}, and this grseg-sim reads version {}; continue "
                     "with the program that wrote it",
                     version, format_version));
-  Checkpoint checkpoint;
-  visit_all(read, checkpoint);
-  std::uint64_t digest = 0;
-  read("/digest", digest);
-  if (digest != digest_of(checkpoint))
-    fail("its content disagrees with its digest: it is damaged; use an older checkpoint");
-  check_checkpoint(checkpoint, path);
-  return checkpoint;
+  int dimension = 0;
+  read("/box/dimension", dimension);
+  if (dimension != 2 && dimension != 3)
+    fail(fmt::format("/box/dimension is {}, not 2 or 3; use an older checkpoint", dimension));
+  return with_dimension(dimension, [&](auto d) -> AnyCheckpoint {
+    Checkpoint<d> checkpoint;
+    visit_all(read, checkpoint);
+    std::uint64_t digest = 0;
+    read("/digest", digest);
+    if (digest != digest_of(checkpoint))
+      fail("its content disagrees with its digest: it is damaged; use an older checkpoint");
+    check_checkpoint(checkpoint, path);
+    return checkpoint;
+  });
 }
 
 bool is_whole(const std::string& path)
@@ -177,7 +204,8 @@ bool is_whole(const std::string& path)
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
+template <int D>
+void write_checkpoint(const std::string& path, const Checkpoint<D>& checkpoint)
 {
   silence();
   const auto part = part_of(path);
@@ -188,7 +216,10 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint)
   rename_path(part, path);
 }
 
-Checkpoint read_checkpoint(const std::string& path)
+template void write_checkpoint(const std::string&, const Checkpoint<2>&);
+template void write_checkpoint(const std::string&, const Checkpoint<3>&);
+
+AnyCheckpoint read_checkpoint(const std::string& path)
 {
   silence();
   const auto previous = previous_of(path);

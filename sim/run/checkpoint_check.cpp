@@ -19,21 +19,30 @@ namespace {
 constexpr std::uint64_t largest_count = 1'000'000'000'000'000;  // exact in a double
 constexpr double farthest = 1e12;         // in d_S; limited by the precision of a double
 constexpr double largest_radius = 1;      // in d_L or base-diameter, whichever is larger
-constexpr std::size_t most_in_cell = 64;  // centres of grains in one square of side d_S
+constexpr std::size_t most_in_cell = 64;  // centres of grains in a square or cube of side d_S
 constexpr double unit_tolerance = 1e-9;   // accepted error of the length of a normal
 
 bool finite(double x)
 {
   return std::isfinite(x);
 }
-bool finite(const Vec2& x)
+template <int n>
+bool finite(const Eigen::Matrix<double, n, 1>& x)
 {
   return x.allFinite();
 }
+template <std::size_t n>
+bool finite(const std::array<double, n>& x)
+{
+  return vector_of(x).allFinite();
+}
 
+template <int D>
 class Check {
  public:
-  Check(const Checkpoint& checkpoint, std::string name) : c_(checkpoint), name_(std::move(name)) {}
+  Check(const Checkpoint<D>& checkpoint, std::string name) : c_(checkpoint), name_(std::move(name))
+  {
+  }
 
   void all() const
   {
@@ -65,7 +74,7 @@ class Check {
     require(values.size() == size || path == "/walls",
             fmt::format("{} has {} entries for {} {}", path, values.size(),
                         of_pairs ? pairs : grains, of_pairs ? "pairs" : "grains"));
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec2>)
+    if constexpr (requires(const T& x) { finite(x); } && !std::is_integral_v<T>)
       each(
           name, values, [](const T& x) { return finite(x); }, "is not a finite number");
   }
@@ -114,7 +123,7 @@ class Check {
   {
     each(
         "/walls", c_.walls,
-        [](const Wall& wall) {
+        [](const Wall<D>& wall) {
           return finite(wall.point) && std::abs(wall.normal.norm() - 1) <= unit_tolerance;
         },
         "is not a point and a normal of length 1");
@@ -122,13 +131,19 @@ class Check {
     require(box.length_x >= (box.periodic_x ? 1e-300 : 0),
             "/box/length_x is not a positive number");
     require(box.length_y >= 0, "/box/length_y is not a positive number");
+    require(box.length_z >= (box.periodic_z ? 1e-300 : 0),
+            "/box/length_z is not a positive number");
   }
 
   void state() const
   {
     each(
         "/state/image", c_.state.image,
-        [](std::int32_t image) { return image >= -most_periods && image <= most_periods; },
+        [](const Periods<D>& image) {
+          return std::all_of(image.begin(), image.end(), [](std::int32_t periods) {
+            return periods >= -most_periods && periods <= most_periods;
+          });
+        },
         "is not a number of periods from -1e9 to 1e9");
     const auto n = static_cast<std::int32_t>(c_.grains.size());
     each(
@@ -140,9 +155,11 @@ class Check {
   void pairs() const
   {
     const auto& pairs = c_.state.pairs;
-    // Entries are twice the index of a body; the last body is the immobile one.
+    // Entries are offsets of positions; the last body is the immobile one.
     const auto bodies = c_.grains.size() + 1;
-    const auto a_body = [bodies](std::uint32_t i) { return i % 2 == 0 && i / 2 < bodies; };
+    const auto a_body = [bodies](std::uint32_t i) {
+      return i % position_doubles<D> == 0 && i / position_doubles<D> < bodies;
+    };
     each("/state/pairs/i", pairs.i, a_body, "is not a grain");
     each("/state/pairs/j", pairs.j, a_body, "is not a grain");
     require(pairs.skin > 0, "/state/pairs/skin is not a positive length");
@@ -166,7 +183,7 @@ class Check {
   Scene scene() const
   {
     try {
-      return scene_of(c_, name_);
+      return scene_of(c_.scene, name_);
     } catch (const ToolError& wrong) {
       fail(fmt::format("/scene is not a scene ({})", wrong.what()));
     }
@@ -174,6 +191,9 @@ class Check {
 
   void in_scene(const Scene& scene) const
   {
+    require(c_.box.dimension == scene.dimension,
+            fmt::format("/box/dimension is {}, and the dimension of /scene is {}",
+                        c_.box.dimension, scene.dimension));
     require(c_.state.steps_done >= 0 && c_.state.steps_done <= scene.steps_in_all(),
             fmt::format("/state/steps_done is {}, and the run has {} steps", c_.state.steps_done,
                         scene.steps_in_all()));
@@ -183,36 +203,43 @@ class Check {
         "is larger than the diameters of large grains and base grains");
     require(c_.state.pairs.skin <= 2 * most, "/state/pairs/skin is larger than a large grain");
     const double end = farthest * scene.small_diameter;
-    const auto near = [end](const Vec2& x) { return x.cwiseAbs().maxCoeff() <= end; };
-    for (const auto& [path, positions] : {std::pair{"/state/position", &c_.state.position},
-                                          {"/state/pairs/made_at", &c_.state.pairs.made_at}}) {
-      each(path, *positions, near, "is farther than 1e12 d_S from the origin");
-      not_crowded(path, *positions, scene.small_diameter);
-    }
+    const auto check = [&](const char* path, const auto& positions) {
+      each(
+          path, positions, [end](const auto& x) { return x.cwiseAbs().maxCoeff() <= end; },
+          "is farther than 1e12 d_S from the origin");
+      not_crowded(path, positions, scene.small_diameter);
+    };
+    check("/state/position", c_.state.position);
+    check("/state/pairs/made_at", c_.state.pairs.made_at);
   }
 
   /// Fails if many grains are in one place: the pairs of all with each other would fill the memory.
-  void not_crowded(const char* path, const std::vector<Vec2>& positions, double cell) const
+  template <class Positions>
+  void not_crowded(const char* path, const Positions& positions, double cell) const
   {
-    std::vector<std::pair<std::int64_t, std::int64_t>> cells;
-    cells.reserve(positions.size());
-    for (const auto& x : positions)
-      cells.emplace_back(std::llround(x.x() / cell), std::llround(x.y() / cell));
+    std::vector<std::array<std::int64_t, D>> cells(positions.size());
+    for (std::size_t g = 0; g < cells.size(); ++g)
+      for (std::size_t k = 0; k < D; ++k)
+        cells[g][k] = std::llround(positions[g][static_cast<Eigen::Index>(k)] / cell);
     std::sort(cells.begin(), cells.end());
     for (std::size_t k = most_in_cell; k < cells.size(); ++k)
       require(cells[k] != cells[k - most_in_cell],
               fmt::format("{} has more than {} grains in one place", path, most_in_cell));
   }
 
-  const Checkpoint& c_;
+  const Checkpoint<D>& c_;
   std::string name_;
 };
 
 }  // namespace
 
-void check_checkpoint(const Checkpoint& checkpoint, const std::string& name)
+template <int D>
+void check_checkpoint(const Checkpoint<D>& checkpoint, const std::string& name)
 {
-  Check(checkpoint, name).all();
+  Check<D>(checkpoint, name).all();
 }
+
+template void check_checkpoint(const Checkpoint<2>&, const std::string&);
+template void check_checkpoint(const Checkpoint<3>&, const std::string&);
 
 }  // namespace grseg

@@ -24,6 +24,7 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
   at("fastest_approach", totals.fastest_approach);
   at("base_impulse_x", totals.base_impulse.x());
   at("base_impulse_y", totals.base_impulse.y());
+  at("base_impulse_z", totals.base_impulse.z());
   at("farthest_approach", totals.farthest_approach);
   at("divided", totals.divided);
 }
@@ -46,11 +47,14 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit("/box/length_x", c.box.length_x);
   visit("/box/length_y", c.box.length_y);
   visit("/box/periodic_x", c.box.periodic_x);
+  visit("/box/dimension", c.box.dimension);
+  visit("/box/length_z", c.box.length_z);
+  visit("/box/periodic_z", c.box.periodic_z);
   visit("/state/steps_done", c.state.steps_done);
   visit("/state/position", c.state.position);
   visit("/state/image", c.state.image);
   visit("/state/velocity", c.state.velocity);
-  visit("/state/rim_speed", c.state.rim_speed);
+  visit("/state/rim_speed", c.state.rim);
   visit("/state/row", c.state.row);
   visit("/state/pairs/made_at", c.state.pairs.made_at);
   visit("/state/pairs/i", c.state.pairs.i);
@@ -71,6 +75,7 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
 /// Checks that a run can continue from a checkpoint: all indices, counts and physical values are in
 /// range. The digest only proves that values have not changed since they were written, possibly by
 /// another program. Throws FormatError, which names the file `name`, the entry and the remedy.
-void check_checkpoint(const Checkpoint& checkpoint, const std::string& name);
+template <int D>
+void check_checkpoint(const Checkpoint<D>& checkpoint, const std::string& name);
 
 }  // namespace grseg

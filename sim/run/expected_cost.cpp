@@ -18,6 +18,8 @@ namespace {
 
 // Measured on chutes of 3,400 and 13,600 grains.
 constexpr double memory_without_grains = 25e6, memory_of_grain = 5500;  // bytes
+// Measured on chutes of 3,500 spheres.
+constexpr double memory_of_sphere = 14000, contacts_per_sphere = 2.1;
 constexpr double contacts_per_grain = 1.7;
 constexpr double usual_grain_step = 4e-7;                   // s, to decide whether to measure
 constexpr double worth_measuring = 60, measured_for = 0.3;  // s; of a run, of the measurement
@@ -25,6 +27,9 @@ constexpr double worth_measuring = 60, measured_for = 0.3;  // s; of a run, of t
 double bytes_of_frame(const Scene& scene, double grains)
 {
   const double number = scene.float32 ? 4 : 8, whole = 4;
+  if (scene.dimension == 3)
+    return grains * (12 * number + 3 * whole) +
+           contacts_per_sphere * grains * (7 * number + 2 * whole);
   return grains * (7 * number + 2 * whole) + contacts_per_grain * grains * (5 * number + 2 * whole);
 }
 
@@ -36,17 +41,20 @@ Scene small_bed(const Scene& scene)
   small.lateral = Scene::Lateral::periodic;
   small.base = Scene::Base::wall;
   small.large_grains = std::nullopt;
-  small.length = 20 * scene.large_diameter;
+  small.length = (scene.dimension == 3 ? 8 : 20) * scene.large_diameter;
+  small.width = std::min(scene.width, 6 * scene.large_diameter);
+  small.sides = Scene::Lateral::periodic;
   small.depth = std::min(scene.depth, 15 * scene.large_diameter);
   return small;
 }
 
 /// Wall-clock time for one step of one grain, s; no value if the small bed does not come to rest.
+template <int D>
 std::optional<double> measured_grain_step(const Scene& scene)
 try {
   using clock = std::chrono::steady_clock;
   const auto small = small_bed(scene);
-  auto simulation = release(deposit(small), small);
+  auto simulation = release(deposit<D>(small), small);
   const auto begin = clock::now();
   std::chrono::duration<double> passed{};
   double steps = 0;
@@ -82,7 +90,8 @@ ExpectedCost expected_cost(const Scene& scene, double begin, Measure measure)
 {
   ExpectedCost cost;
   cost.grains = expected_grains(scene);
-  cost.memory = memory_without_grains + memory_of_grain * cost.grains;
+  cost.memory = memory_without_grains +
+                (scene.dimension == 3 ? memory_of_sphere : memory_of_grain) * cost.grains;
   cost.of_rest = begin > 0;
   const double flow = std::max(0.0, scene.duration - begin);
   const double frames = (flow / scene.frame_interval) *
@@ -92,7 +101,8 @@ ExpectedCost expected_cost(const Scene& scene, double begin, Measure measure)
   const double grain_steps = cost.grains * (flow + deposition) / scene.step;
   if (measure == Measure::where_long && grain_steps * usual_grain_step < worth_measuring)
     return cost;
-  cost.seconds = measured_grain_step(scene);
+  cost.seconds =
+      with_dimension(scene.dimension, [&](auto d) { return measured_grain_step<d>(scene); });
   if (cost.seconds) *cost.seconds *= grain_steps;
   return cost;
 }

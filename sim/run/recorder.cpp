@@ -16,51 +16,55 @@ namespace {
 constexpr double most_overlap = 0.01;
 
 /// Data from which the observables of a frame are computed.
+template <int D>
 struct Written {
   const StepTotals& t;  // totals since the previous frame
-  const Simulation& simulation;
-  const Frame<2>& frame;
+  const Simulation<D>& simulation;
+  const Frame<D>& frame;
   EnergyBalance energy;
 
-  const World& world() const { return simulation.world(); }
+  const World<D>& world() const { return simulation.world(); }
 };
 
+template <int D>
 struct Column {
   const char *name, *unit;
-  double (*value)(const Written&);
+  double (*value)(const Written<D>&);
 };
 
 // clang-format off
-constexpr Column columns[] = {
-  {"translational_energy", "J", [](const Written& w) { return translational_energy(w.simulation); }},
-  {"rotational_energy", "J", [](const Written& w) { return rotational_energy(w.simulation); }},
-  {"potential_energy", "J", [](const Written& w) { return potential_energy(w.simulation); }},
-  {"momentum_defect", "", [](const Written& w) {
-     return momentum_defect(w.world().grains, w.frame, w.world().gravity); }},
-  {"energy_defect", "", [](const Written& w) { return w.energy.defect(); }},
-  {"work_of_contacts", "J", [](const Written& w) { return w.energy.work_of_contacts; }},
-  {"work_of_boundaries", "J", [](const Written& w) { return w.energy.work_of_boundaries; }},
-  {"steps", "", [](const Written& w) { return static_cast<double>(w.t.steps); }},
-  {"missed_steps", "", [](const Written& w) { return static_cast<double>(w.t.missed); }},
-  {"sweeps", "", [](const Written& w) { return w.t.per_step(w.t.sweeps); }},
-  {"residual", "", [](const Written& w) { return w.t.largest_residual; }},
-  {"residual_rms", "", [](const Written& w) { return w.t.per_step(w.t.residual_rms); }},
-  {"touching", "", [](const Written& w) { return w.t.per_step(w.t.touching); }},
-  {"contacts", "", [](const Written& w) { return w.t.per_step(w.t.force_bearing); }},
-  {"mean_overlap", "m", [](const Written& w) { return w.t.mean_overlap(); }},
-  {"largest_overlap", "m", [](const Written& w) { return w.t.largest_overlap; }},
-  {"mean_gap", "m", [](const Written& w) { return w.t.mean_gap_bearing(); }},
-  {"fastest_approach", "m s-1", [](const Written& w) { return w.t.fastest_approach; }},
-  {"frame_step", "s", [](const Written& w) { return w.simulation.written_step(); }},
-  {"base_force_x", "N", [](const Written& w) {
+template <int D>
+const std::vector<Column<D>> columns = {
+  {"translational_energy", "J", [](const Written<D>& w) { return translational_energy(w.simulation); }},
+  {"rotational_energy", "J", [](const Written<D>& w) { return rotational_energy(w.simulation); }},
+  {"potential_energy", "J", [](const Written<D>& w) { return potential_energy(w.simulation); }},
+  {"momentum_defect", "", [](const Written<D>& w) {
+     return momentum_defect<D>(w.world().grains, w.frame, w.world().gravity); }},
+  {"energy_defect", "", [](const Written<D>& w) { return w.energy.defect(); }},
+  {"work_of_contacts", "J", [](const Written<D>& w) { return w.energy.work_of_contacts; }},
+  {"work_of_boundaries", "J", [](const Written<D>& w) { return w.energy.work_of_boundaries; }},
+  {"steps", "", [](const Written<D>& w) { return static_cast<double>(w.t.steps); }},
+  {"missed_steps", "", [](const Written<D>& w) { return static_cast<double>(w.t.missed); }},
+  {"sweeps", "", [](const Written<D>& w) { return w.t.per_step(w.t.sweeps); }},
+  {"residual", "", [](const Written<D>& w) { return w.t.largest_residual; }},
+  {"residual_rms", "", [](const Written<D>& w) { return w.t.per_step(w.t.residual_rms); }},
+  {"touching", "", [](const Written<D>& w) { return w.t.per_step(w.t.touching); }},
+  {"contacts", "", [](const Written<D>& w) { return w.t.per_step(w.t.force_bearing); }},
+  {"mean_overlap", "m", [](const Written<D>& w) { return w.t.mean_overlap(); }},
+  {"largest_overlap", "m", [](const Written<D>& w) { return w.t.largest_overlap; }},
+  {"mean_gap", "m", [](const Written<D>& w) { return w.t.mean_gap_bearing(); }},
+  {"fastest_approach", "m s-1", [](const Written<D>& w) { return w.t.fastest_approach; }},
+  {"frame_step", "s", [](const Written<D>& w) { return w.simulation.written_step(); }},
+  {"base_force_x", "N", [](const Written<D>& w) {
      return w.t.per_step(w.t.base_impulse.x()) / w.world().step; }},
-  {"base_force_y", "N", [](const Written& w) {
+  {"base_force_y", "N", [](const Written<D>& w) {
      return w.t.per_step(w.t.base_impulse.y()) / w.world().step; }}};
 // clang-format on
 
-bool all_finite(const std::vector<Vec2>& values)
+template <int D>
+bool all_finite(const std::vector<Vector<D>>& values)
 {
-  return std::all_of(values.begin(), values.end(), [](const Vec2& v) { return v.allFinite(); });
+  return std::all_of(values.begin(), values.end(), [](const auto& v) { return v.allFinite(); });
 }
 
 }  // namespace
@@ -102,10 +106,12 @@ void StepTotals::add(const StepTotals& other)
   base_impulse += other.base_impulse;
 }
 
-std::vector<Observable> Recorder::observables()
+std::vector<Observable> Recorder::observables(int dimension)
 {
   std::vector<Observable> all;
-  for (const auto& column : columns) all.push_back({column.name, column.unit});
+  all.reserve(columns<2>.size() + 1);
+  for (const auto& column : columns<2>) all.push_back({column.name, column.unit});
+  if (dimension == 3) all.push_back({"base_force_z", "N"});
   return all;
 }
 
@@ -114,23 +120,27 @@ Recorder::Recorder(TrajectoryWriter& writer, double small_diameter, const State&
 {
 }
 
-void Recorder::write(const Frame<2>& frame, const Simulation& simulation)
+template <int D>
+void Recorder::write(const Frame<D>& frame, const Simulation<D>& simulation)
 {
   check_bounds(frame, simulation);
   const auto& world = simulation.world();
-  const Written now{state_.since_frame, simulation, frame,
-                    energy_balance(world.grains, frame, simulation.before(), world.gravity,
-                                   simulation.written_step())};
+  const Written<D> now{state_.since_frame, simulation, frame,
+                       energy_balance<D>(world.grains, frame, simulation.before(), world.gravity,
+                                         simulation.written_step())};
   std::vector<double> values;
-  for (const auto& column : columns) values.push_back(column.value(now));
+  values.reserve(columns<D>.size() + 1);
+  for (const auto& column : columns<D>) values.push_back(column.value(now));
+  if constexpr (D == 3) values.push_back(now.t.per_step(now.t.base_impulse.z()) / world.step);
   writer_.append(frame, values);
   state_.totals.add(state_.since_frame);
   state_.since_frame = {};
 }
 
-void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation) const
+template <int D>
+void Recorder::check_bounds(const Frame<D>& frame, const Simulation<D>& simulation) const
 {
-  if (!all_finite(frame.position) || !all_finite(frame.velocity))
+  if (!all_finite<D>(frame.position) || !all_finite<D>(frame.velocity))
     throw RunError(fmt::format(
         "a position or velocity is not finite at t = {:.6g} s; use a smaller step", frame.time));
   const double approach = state_.since_frame.farthest_approach, most = simulation.most_approach();
@@ -148,9 +158,10 @@ void Recorder::check_bounds(const Frame<2>& frame, const Simulation& simulation)
         overlap, frame.time, most_overlap));
 }
 
-double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity)
+template <int D>
+double momentum_defect(const Grains& grains, const Frame<D>& frame, const Vector<D>& gravity)
 {
-  std::vector<Vec2> defect(grains.size());
+  std::vector<Vector<D>> defect(grains.size());
   double largest_force = 0;
   for (std::size_t g = 0; g < grains.size(); ++g)
     defect[g] = grains.mass[g] * gravity - frame.force[g];
@@ -165,5 +176,10 @@ double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& 
     if (!grains.fixed[g]) largest = std::max(largest, defect[g].norm());
   return largest_force > 0 ? largest / largest_force : largest;
 }
+
+template void Recorder::write(const Frame<2>&, const Simulation<2>&);
+template void Recorder::write(const Frame<3>&, const Simulation<3>&);
+template double momentum_defect<2>(const Grains&, const Frame<2>&, const Vec2&);
+template double momentum_defect<3>(const Grains&, const Frame<3>&, const Vec3&);
 
 }  // namespace grseg

@@ -22,7 +22,7 @@ struct StepTotals {
   double sum_overlap = 0, sum_gap_bearing = 0;
   double largest_residual = 0, largest_overlap = 0, fastest_approach = 0, farthest_approach = 0;
   std::int64_t divided = 0;          ///< steps that were divided into parts
-  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, on mobile grains
+  Vec3 base_impulse = Vec3::Zero();  ///< kg m/s, on mobile grains
 
   void add(const StepReport& report);
   void add(const StepTotals& other);
@@ -44,7 +44,7 @@ struct StepTotals {
 /// other observables the steps since the previous frame.
 class Recorder {
  public:
-  static std::vector<Observable> observables();
+  static std::vector<Observable> observables(int dimension);
 
   /// State of the recorder between two steps.
   struct State {
@@ -63,13 +63,15 @@ class Recorder {
   /// not finite; if grains may approach each other by more than half the smallest diameter even in
   /// the smallest part of a step; or if the mean overlap since the last frame is above 1 % of d_S
   /// and larger than the fastest approach in one step.
-  void write(const Frame<2>& frame, const Simulation& simulation);
+  template <int D>
+  void write(const Frame<D>& frame, const Simulation<D>& simulation);
 
   const StepTotals& totals() const { return state_.totals; }
   const State& state() const { return state_; }
 
  private:
-  void check_bounds(const Frame<2>& frame, const Simulation& simulation) const;
+  template <int D>
+  void check_bounds(const Frame<D>& frame, const Simulation<D>& simulation) const;
 
   TrajectoryWriter& writer_;
   double small_diameter_;
@@ -77,6 +79,7 @@ class Recorder {
 };
 
 /// Largest |sum of contact forces + m g - force| of a mobile grain over the largest contact force.
-double momentum_defect(const Grains& grains, const Frame<2>& frame, const Vec2& gravity);
+template <int D>
+double momentum_defect(const Grains& grains, const Frame<D>& frame, const Vector<D>& gravity);
 
 }  // namespace grseg

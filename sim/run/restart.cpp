@@ -28,7 +28,8 @@ po::variables_map empty_command_line()
 }
 
 /// Converts the clock and the impulses, which are sums over a step, to a step of another length.
-void change_step(Simulation::State& state, const Scene& before, const Scene& now)
+template <int D>
+void change_step(typename Simulation<D>::State& state, const Scene& before, const Scene& now)
 {
   if (before.step == now.step) return;
   const double time = static_cast<double>(state.steps_done) * before.step;
@@ -44,35 +45,39 @@ void change_step(Simulation::State& state, const Scene& before, const Scene& now
   state.steps_done = std::llround(steps);
   const double longer = now.step / before.step;
   for (auto& impulse : state.pairs.impulse_n) impulse *= longer;
-  for (auto& impulse : state.pairs.impulse_t) impulse *= longer;
+  for (auto& impulse : state.pairs.impulse_t)
+    for (auto& component : impulse) component *= longer;
 }
 
-/// Displaces every mobile grain by a vector that is uniform in a disc of radius `largest` (m).
-void displace(std::vector<Vec2>& position, const Grains& grains, double largest, std::uint64_t seed)
+/// Displaces every mobile grain by a vector that is uniform in a disc or ball of radius `largest`,
+/// m.
+template <int D>
+void displace(std::vector<Vector<D>>& position, const Grains& grains, double largest,
+              std::uint64_t seed)
 {
   RandomNumbers random(seed);
   for (std::size_t g = 0; g < position.size(); ++g) {
     if (grains.fixed[g]) continue;
-    const double distance = largest * std::sqrt(random.uniform());
-    position[g] += distance * random.direction();
+    const double uniform = random.uniform();
+    const double distance = largest * (D == 2 ? std::sqrt(uniform) : std::cbrt(uniform));
+    position[g] += distance * random.direction<D>();
   }
 }
 
 }  // namespace
 
-Scene scene_of(const Checkpoint& checkpoint, const std::string& name)
+Scene scene_of(const std::string& text, const std::string& name)
 {
-  return scene_of(checkpoint, name, empty_command_line());
+  return scene_of(text, name, empty_command_line());
 }
 
-Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
-               const po::variables_map& given)
+Scene scene_of(const std::string& text, const std::string& name, const po::variables_map& given)
 {
   std::vector<std::string> set_again;
   if (!given["accuracy"].defaulted())
     set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
   auto values = given;
-  read_scene_text(checkpoint.scene, name, set_again, values);
+  read_scene_text(text, name, set_again, values);
   return resolve_scene(values);
 }
 
@@ -92,22 +97,28 @@ bool same_steps(const Scene& before, const Scene& now)
          differing_key(before, now, KeyRole::flow).empty();
 }
 
-Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before, const Scene& now,
-                               const Perturbation& perturbation)
+template <int D>
+Simulation<D> restored_simulation(const Checkpoint<D>& checkpoint, const Scene& before,
+                                  const Scene& now, const Perturbation& perturbation)
 {
-  World world;
+  World<D> world;
   world.grains = checkpoint.grains;
   world.walls = checkpoint.walls;
   world.box = checkpoint.box;
   set_conditions(world, now);
   auto state = checkpoint.state;
-  change_step(state, before, now);
+  change_step<D>(state, before, now);
   if (now.friction == 0)  // without friction the solver does not change tangential impulses
-    std::fill(state.pairs.impulse_t.begin(), state.pairs.impulse_t.end(), 0.0);
+    for (auto& impulse : state.pairs.impulse_t) impulse = {};
   if (perturbation.size > 0)
-    displace(state.position, world.grains, perturbation.size * now.small_diameter,
-             perturbation.seed);
+    displace<D>(state.position, world.grains, perturbation.size * now.small_diameter,
+                perturbation.seed);
   return {world, state};
 }
+
+template Simulation<2> restored_simulation(const Checkpoint<2>&, const Scene&, const Scene&,
+                                           const Perturbation&);
+template Simulation<3> restored_simulation(const Checkpoint<3>&, const Scene&, const Scene&,
+                                           const Perturbation&);
 
 }  // namespace grseg

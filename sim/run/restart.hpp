@@ -18,11 +18,11 @@ struct Perturbation {
 };
 constexpr double largest_perturbation = 0.01;  // in d_S; overlap would stay, see contact_law.hpp
 
-/// Scene of `checkpoint`, which was read from the file `name`.
-Scene scene_of(const Checkpoint& checkpoint, const std::string& name);
+/// Scene of a checkpoint, whose text Checkpoint::scene was read from the file `name`.
+Scene scene_of(const std::string& text, const std::string& name);
 /// Scene of a checkpoint with the changes of the command line, `given`. A given accuracy also sets
 /// the keys of keys_of_accuracy.
-Scene scene_of(const Checkpoint& checkpoint, const std::string& name,
+Scene scene_of(const std::string& text, const std::string& name,
                const boost::program_options::variables_map& given);
 
 /// Throws UsageError, which names the key, if `now` requires other grains or another cell than
@@ -36,7 +36,8 @@ bool same_steps(const Scene& before, const Scene& now);
 /// Its flow is not started yet (start_flow()). If the duration of a step changes, the number of
 /// steps done and the first guesses of impulses are converted. Throws UsageError if the time is not
 /// a whole number of new steps.
-Simulation restored_simulation(const Checkpoint& checkpoint, const Scene& before, const Scene& now,
-                               const Perturbation& perturbation);
+template <int D>
+Simulation<D> restored_simulation(const Checkpoint<D>& checkpoint, const Scene& before,
+                                  const Scene& now, const Perturbation& perturbation);
 
 }  // namespace grseg

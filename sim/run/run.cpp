@@ -33,8 +33,9 @@ double seconds_now()
 }
 
 /// A simulation that is ready to run, and the file of its frames.
+template <int D>
 struct Run {
-  Simulation simulation;
+  Simulation<D> simulation;
   TrajectoryWriter writer;
   TrajectoryProgress progress;
   double deposited_height;  // m, height of the deposited bed
@@ -47,20 +48,22 @@ StorageSettings storage_while_running(const Scene& scene)
   return {.float32 = scene.float32, .live = true};
 }
 
-TrajectoryWriter new_trajectory(const Scene& scene, const Simulation& simulation,
+template <int D>
+TrajectoryWriter new_trajectory(const Scene& scene, const Simulation<D>& simulation,
                                 Parameters parameters, const std::string& part)
 {
   add_unknown_summary(parameters);
   return {part,
-          {simulation.world().grains, simulation.world().box, parameters, Recorder::observables()},
+          {simulation.world().grains, simulation.world().box, parameters, Recorder::observables(D)},
           storage_while_running(scene)};
 }
 
 /// Writes checkpoints of `run` when they are due.
+template <int D>
 struct Checkpoints {
   const Scene& scene;
   const RunOptions& options;
-  Run& run;
+  Run<D>& run;
   const Recorder& recorder;
   double begin = seconds_now();
   double last = -std::numeric_limits<double>::infinity();
@@ -78,26 +81,27 @@ struct Checkpoints {
     flush_to_disk(part_of(options.output));
     const auto& world = run.simulation.world();
     write_checkpoint(options.checkpoint,
-                     {to_text(scene),
-                      program_of_run(),
-                      run.history,
-                      world.grains,
-                      world.walls,
-                      world.box,
-                      run.deposited_height,
-                      run.simulation.state(),
-                      {run.writer.frames(), run.writer.digest(), recorder.state(),
-                       run.progress.begin, run.progress.wall + last - begin}});
+                     Checkpoint<D>{{to_text(scene),
+                                    program_of_run(),
+                                    run.history,
+                                    world.grains,
+                                    world.box,
+                                    run.deposited_height,
+                                    {run.writer.frames(), run.writer.digest(), recorder.state(),
+                                     run.progress.begin, run.progress.wall + last - begin}},
+                                   world.walls,
+                                   run.simulation.state()});
   }
 };
 
 /// Writes frames and checkpoints until the end or a signal. Checkpoints are written just before a
 /// frame, so that a restart may change the step; after a signal, a checkpoint is written at once.
-void flow(const Scene& scene, Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints,
-          ProgressBar& progress)
+template <int D>
+void flow(const Scene& scene, Simulation<D>& simulation, Recorder& recorder,
+          Checkpoints<D>& checkpoints, ProgressBar& progress)
 {
   const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
-  Frame<2> frame;
+  Frame<D> frame;
   while (simulation.steps_done() < end && !interrupted()) {
     const auto since_due = simulation.steps_done() % every;
     const bool due = since_due < scene.burst;
@@ -135,11 +139,12 @@ void refuse_errors(const StepTotals& totals, double small_diameter)
 }
 
 /// Runs `run` to its end, prints the summary and renames the trajectory to its final name.
-void finish(const Scene& scene, const RunOptions& options, Run& run)
+template <int D>
+void finish(const Scene& scene, const RunOptions& options, Run<D>& run)
 {
   auto& simulation = run.simulation;
   Recorder recorder(run.writer, scene.small_diameter, run.progress.recorder);
-  Checkpoints checkpoints{scene, options, run, recorder};
+  Checkpoints<D> checkpoints{scene, options, run, recorder};
   ProgressBar progress(
       program,
       {.things = "s of flow", .total = scene.duration, .from = simulation.time(), .digits = 2},
@@ -171,14 +176,16 @@ void listen()
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+template <int D>
 void record_deposition(const Scene& scene, TrajectoryWriter& writer)
 {
   Recorder recorder(writer, scene.small_diameter);
-  const auto record = [&](const StepReport& report, const Simulation& now, const Frame<2>* frame) {
+  const auto record = [&](const StepReport& report, const Simulation<D>& now,
+                          const Frame<D>* frame) {
     recorder.add(report);
     if (frame != nullptr) recorder.write(*frame, now);
   };
-  deposit(scene, {.each_step = {}, .slowed = {}, .record = record});
+  deposit<D>(scene, {.each_step = {}, .slowed = {}, .record = record});
 }
 
 /// Prints the expected cost of the run from `begin`, s, on. Throws UsageError if it is too large.
@@ -191,7 +198,7 @@ void announce(const Scene& scene, double begin, const RunOptions& options)
 
 /// True if `output` contains the frames that `checkpoint` counts, or if its frames are the first
 /// ones in output.part, as after an interrupted prolongation.
-bool begins_the_run(const std::string& output, const Checkpoint& checkpoint)
+bool begins_the_run(const std::string& output, const CheckpointHead& checkpoint)
 {
   if (!holds_something(output)) return false;
   const TrajectoryReader run(output);
@@ -203,7 +210,8 @@ bool begins_the_run(const std::string& output, const Checkpoint& checkpoint)
 }
 
 /// Deposits the bed. Sets `slowed_from` to the time, s, from which its grains were slowed down.
-Simulation deposit_visibly(const Scene& scene, const RunOptions& options, double& slowed_from)
+template <int D>
+Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options, double& slowed_from)
 {
   ProgressBar progress(
       program,
@@ -215,12 +223,11 @@ Simulation deposit_visibly(const Scene& scene, const RunOptions& options, double
     progress.show(time);
   };
   const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
-  return deposit(scene, {.each_step = step, .slowed = slowed, .record = {}});
+  return deposit<D>(scene, {.each_step = step, .slowed = slowed, .record = {}});
 }
 
-}  // namespace
-
-void simulate(const Scene& scene, const RunOptions& options)
+template <int D>
+void simulate_in(const Scene& scene, const RunOptions& options)
 {
   const auto part = part_of(options.output);
   check_outputs(options);
@@ -232,14 +239,14 @@ void simulate(const Scene& scene, const RunOptions& options)
 
   announce(scene, 0, options);
   double slowed_from = 0;
-  const auto deposited = deposit_visibly(scene, options, slowed_from);
+  const auto deposited = deposit_visibly<D>(scene, options, slowed_from);
   const auto simulation = release(deposited, scene);
-  Run run{simulation,
-          new_trajectory(scene, simulation, provenance(scene, options), part),
-          {},
-          bed_height(deposited),
-          options.command_line};
-  if (scene.keep_deposition) record_deposition(scene, run.writer);
+  Run<D> run{simulation,
+             new_trajectory(scene, simulation, provenance(scene, options), part),
+             {},
+             bed_height(deposited),
+             options.command_line};
+  if (scene.keep_deposition) record_deposition<D>(scene, run.writer);
   finish(scene, options, run);
   if (slowed_from > 0 && !options.quiet)
     tell(fmt::format(
@@ -248,10 +255,11 @@ void simulate(const Scene& scene, const RunOptions& options)
         slowed_from));
 }
 
-void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options)
+template <int D>
+void resume_in(const Checkpoint<D>& checkpoint, const Scene& given, RunOptions options)
 {
   const auto part = part_of(options.output);
-  const auto before = scene_of(checkpoint, options.restart);
+  const auto before = scene_of(checkpoint.scene, options.restart);
   const auto scene = without_round_off(given, before);
   require_same_bed(before, scene);
   const bool perturbed = options.perturbation.size > 0;
@@ -263,7 +271,7 @@ void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options
   check_outputs(options);
   const RunLocks locks(options);
   const bool in_place = prolongs || (unchanged && holds_something(part));
-  auto simulation = restored_simulation(checkpoint, before, scene, options.perturbation);
+  auto simulation = restored_simulation<D>(checkpoint, before, scene, options.perturbation);
   if (!in_place && simulation.steps_done() >= scene.steps_in_all())
     throw UsageError(
         fmt::format("{} is at t = {:g} s, and the run ends at {:g} s; choose a larger --duration",
@@ -283,13 +291,26 @@ void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options
   if (in_place) progress = checkpoint.trajectory;
   start_flow(simulation, scene);
   const auto parameters = provenance_of_restart(scene, options, simulation.time(), history);
-  Run run{simulation,
-          in_place ? truncate_to_checkpoint(
-                         {prolongs ? options.output : part, part, to_text(scene), history},
-                         checkpoint, options.restart, storage_while_running(scene))
-                   : new_trajectory(scene, simulation, parameters, part),
-          progress, checkpoint.deposited_height, history};
+  Run<D> run{simulation,
+             in_place ? truncate_to_checkpoint(
+                            {prolongs ? options.output : part, part, to_text(scene), history},
+                            checkpoint, options.restart, storage_while_running(scene))
+                      : new_trajectory(scene, simulation, parameters, part),
+             progress, checkpoint.deposited_height, history};
   finish(scene, options, run);
+}
+
+}  // namespace
+
+void simulate(const Scene& scene, const RunOptions& options)
+{
+  with_dimension(scene.dimension, [&](auto d) { simulate_in<d>(scene, options); });
+}
+
+void resume(const AnyCheckpoint& checkpoint, const Scene& given, const RunOptions& options)
+{
+  std::visit([&](const auto& of_dimension) { resume_in(of_dimension, given, options); },
+             checkpoint);
 }
 
 }  // namespace grseg

@@ -40,6 +40,6 @@ void simulate(const Scene& scene, const RunOptions& options);
 /// run, throws UsageError. If `options.continues` and only the duration differs, a finished output
 /// is replaced by a file with its frames and the new ones. In all other cases a new trajectory
 /// begins with the frames after the checkpoint.
-void resume(const Checkpoint& checkpoint, const Scene& given, RunOptions options);
+void resume(const AnyCheckpoint& checkpoint, const Scene& given, const RunOptions& options);
 
 }  // namespace grseg

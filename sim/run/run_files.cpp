@@ -101,7 +101,7 @@ void publish_trajectory(const std::string& output, bool overwrite, const Storage
   std::filesystem::remove(part, ignored);
 }
 
-TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint& checkpoint,
+TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const CheckpointHead& checkpoint,
                                         const std::string& name, const StorageSettings& storage)
 {
   const auto require = [&](bool belongs) {
@@ -123,7 +123,7 @@ TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint
     parameters.texts["history"] = to.history;
     parameters.texts["scene"] = to.scene;
     auto writer = copy_frames(run, checkpoint.trajectory.frames, copy, parameters,
-                              Recorder::observables(), storage);
+                              Recorder::observables(checkpoint.box.dimension), storage);
     require(writer.digest() == checkpoint.trajectory.digest);
     writer.flush();
     publish_file(copy, to.part, true);

@@ -57,7 +57,7 @@ struct Continuation {
 /// and omits anything damaged by a kill, and to.part is unchanged until the copy is renamed to it.
 /// Throws UsageError if to.from does not belong to the run of `checkpoint`, FormatError if it
 /// cannot be read.
-TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint& checkpoint,
+TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const CheckpointHead& checkpoint,
                                         const std::string& name, const StorageSettings& storage);
 
 }  // namespace grseg

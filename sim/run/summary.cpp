@@ -37,7 +37,7 @@ std::string grains_in_words(const Scene& scene, const Grains& grains)
 
 std::string flow_in_words(const RunSummary& s, const Scene& scene)
 {
-  auto slope = gravity_of(scene).norm() == 0 ? std::string("no gravity")
+  auto slope = gravity_of<2>(scene).norm() == 0 ? std::string("no gravity")
                                              : fmt::format("slope {:g} degrees", scene.slope);
   if (scene.slope_rate != 0)
     slope += fmt::format(" at t = 0, {:g} per second steeper, {:.4g} at t = {:g} s",
@@ -121,9 +121,10 @@ std::string effects_left_out(const Scene& scene)
   add(!scene.rotation, "rotation (off)");
   add(scene.restitution == 0 && !remembers, "restitution (its coefficient is 0)");
   add(!remembers, "memory of approaches (contacts act at once)");
-  add(gravity_of(scene).norm() == 0, "gravity (none)");
+  add(gravity_of<2>(scene).norm() == 0, "gravity (none)");
   add(scene.lateral == Scene::Lateral::walls, "periodicity (the cell has ends)");
   add(!moves_boundaries(scene), "moving boundaries (all stand still)");
+  add(scene.dimension == 3, "resistance to spinning about a contact's normal (none)");
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
@@ -160,13 +161,15 @@ NumericalStiffness stiffness_of(const Scene& scene, const StepTotals& totals)
 {
   const double d = scene.small_diameter;
   const auto base_pressure = scene.geometry->base_pressure;
-  const double on_base = totals.per_step(totals.base_impulse.y()) / (scene.step * scene.length);
+  const double on_base = totals.per_step(totals.base_impulse.y()) / (scene.step * base_area(scene));
+  // A row of spheres bears the pressure on a strip that is as wide as they are.
+  const double strip = scene.dimension == 3 ? d : 1;
   return numerical_stiffness(
       {.sweeps = totals.per_step(totals.sweeps),
        .step = scene.step,
-       .mass = scene.density * std::numbers::pi / 4 * d * d,
+       .mass = scene.density * nominal_volume(scene, d),
        .diameter = d,
-       .base_pressure = base_pressure ? base_pressure(scene) : on_base,
+       .base_pressure = strip * (base_pressure ? base_pressure(scene) : on_base),
        .layers = scene.depth / d,
        .gravity = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180)});
 }

@@ -122,7 +122,7 @@ void add_base_row(Boundaries& to, const Scene& scene)
     const double radius = scene.base_diameter / 2 * (1 + scene.base_diameter_spread * diameter[k]);
     const double lowered = scene.base_height_spread * (0.5 - height[k]);
     const double x = (static_cast<double>(k) + 0.5 + displaced) * scene.base_spacing;
-    to.position.emplace_back(x, to.top - lowered - radius);
+    to.position.emplace_back(x, to.top - lowered - radius, 0);
     to.radius.push_back(radius);
     displaced += scene.base_spacing_spread * spacing[k];
   }

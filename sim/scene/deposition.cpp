@@ -17,7 +17,8 @@ namespace grseg {
 namespace {
 
 constexpr double depth_tolerance = 0.02;
-constexpr double usual_solid_fraction = 0.81;  // solid fraction of a deposit, for the first attempt
+// Solid fraction of a deposit of discs, and of spheres, for the first attempt.
+constexpr double usual_solid_fraction = 0.81, usual_of_spheres = 0.61;
 constexpr int most_attempts = 20;
 constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
 
@@ -25,7 +26,7 @@ constexpr double loose = 1.12;  // lattice spacing of the falling grains, in lar
 struct Falling {
   Species species;
   double radius;  // m
-  Vec2 at;        // m, position of its centre
+  Vec3 at;        // m, position of its centre
 };
 
 /// All grains before they fall, and the height above which there are none, m.
@@ -34,8 +35,8 @@ struct Shower {
   double top;
 };
 
-/// Square cell of the lattice on which grains are placed before they fall. It contains one grain of
-/// the lattice's largest species, or up to `per_side` x `per_side` smaller ones.
+/// Square or cube of the lattice on which grains are placed before they fall. It contains one grain
+/// of the lattice's largest species, or smaller ones, up to `per_side` along each side.
 struct Cell {
   Species species;
   long per_side, grains;
@@ -46,51 +47,69 @@ double nominal_diameter(const Scene& scene, Species species)
   return species == Species::large ? scene.large_diameter : scene.small_diameter;
 }
 
-/// Row of cells of the lattice: left edge, bottom, width of a cell, and height, m.
-struct Row {
-  double left, bottom, spacing, height;
+/// Layer of cells of the lattice: left edge, bottom, width of a cell along x and z, and height, m;
+/// number of cells along x.
+struct Layer {
+  double left, bottom, spacing, depth, height;
+  long per_row;
 };
 
-/// Adds the grains of the cell at `place` of `row`, with random displacements.
-void fill_cell(Shower& shower, const Scene& scene, const Row& row, long place, const Cell& cell,
+/// Adds the grains of the cell at `place` of `layer`, with random displacements.
+void fill_cell(Shower& shower, const Scene& scene, const Layer& layer, long place, const Cell& cell,
                RandomNumbers& random)
 {
   const double nominal = nominal_diameter(scene, cell.species);
   const double largest = nominal * (1 + scene.spread / 2);
   const auto per_side = static_cast<double>(cell.per_side);
-  const double slack = row.spacing / per_side - largest;
+  const auto jitter = [&](double side) {
+    return (side / per_side - largest) * (random.uniform() - 0.5);
+  };
+  const auto within = [&](long index) { return (static_cast<double>(index) + 0.5) / per_side; };
+  const long squared = cell.per_side * cell.per_side;
   for (long k = 0; k < cell.grains; ++k) {
-    const double along = (static_cast<double>(k % cell.per_side) + 0.5) / per_side;
-    const long above = k / cell.per_side;  // rows of this cell below the grain
-    const double up = (static_cast<double>(above) + 0.5) / per_side;
+    const bool cube = scene.dimension == 3;
+    const long above = cube ? k / squared : k / cell.per_side;  // whole rows or layers of grains
     const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
-    const double x = row.left + (static_cast<double>(place) + along) * row.spacing +
-                     slack * (random.uniform() - 0.5);
-    const double jitter = (row.height / per_side - largest) * (random.uniform() - 0.5);
-    shower.grains.push_back(
-        {cell.species, diameter / 2, {x, row.bottom + up * row.height + jitter}});
+    const double x =
+        layer.left +
+        (static_cast<double>(place % layer.per_row) + within(k % cell.per_side)) * layer.spacing +
+        jitter(layer.spacing);
+    const double y = layer.bottom + within(above) * layer.height + jitter(layer.height);
+    const long row = place / layer.per_row;
+    double z = 0;
+    if (cube)
+      z = (static_cast<double>(row) + within(k % squared / cell.per_side)) * layer.depth +
+          jitter(layer.depth);
+    shower.grains.push_back({cell.species, diameter / 2, {x, y, z}});
   }
 }
 
-/// Adds rows of `cells`; a cell is wide enough for a grain of the species `lattice`.
-void add_rows(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, Species lattice,
-              RandomNumbers& random)
+/// Adds layers of `cells`, which are as wide as grains of the species `lattice` need.
+void add_layers(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, Species lattice,
+                RandomNumbers& random)
 {
-  const double row_height = loose * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
+  const double side = loose * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
+  const long along_z = scene.dimension == 3 ? static_cast<long>(scene.width / side) : 1;
   auto& y = shower.top;
-  for (auto cell = cells.begin(); cell != cells.end(); y += row_height) {
-    const auto below = room_at(scene, y), above = room_at(scene, y + row_height);
+  for (auto cell = cells.begin(); cell != cells.end(); y += side) {
+    const auto below = room_at(scene, y), above = room_at(scene, y + side);
     const double left = std::max(below.left, above.left);
     const double width = std::min(below.right, above.right) - left;
-    const long per_row = static_cast<long>(width / row_height);
-    if (per_row < 1 && above.right - above.left <= below.right - below.left)
+    const long per_row = static_cast<long>(width / side);
+    if (along_z < 1 || (per_row < 1 && above.right - above.left <= below.right - below.left))
       throw UsageError(
           fmt::format("the falling grains do not fit: the {} is too narrow for a grain at "
                       "a height of {:.4g} m; choose a wider one or fewer grains",
                       scene.geometry->name, y));
-    const Row row{left, y, width / static_cast<double>(per_row), row_height};
-    for (long place = 0; place < per_row && cell != cells.end(); ++place, ++cell)
-      fill_cell(shower, scene, row, place, *cell, random);
+    if (per_row < 1) continue;
+    const Layer layer{left,
+                      y,
+                      width / static_cast<double>(per_row),
+                      scene.width / static_cast<double>(along_z),
+                      side,
+                      per_row};
+    for (long place = 0; place < per_row * along_z && cell != cells.end(); ++place, ++cell)
+      fill_cell(shower, scene, layer, place, *cell, random);
   }
 }
 
@@ -106,8 +125,9 @@ std::vector<Cell> mixed_cells(const Scene& scene, long large, long small, Random
   const double ratio = scene.large_diameter / scene.small_diameter;
   const long per_side = std::lround(std::floor(ratio + round_off));
   auto cells = cells_of_one(Species::large, large);
-  for (long left = small; left > 0; left -= per_side * per_side)
-    cells.push_back({Species::small, per_side, std::min(left, per_side * per_side)});
+  const long in_cell = scene.dimension == 3 ? per_side * per_side * per_side : per_side * per_side;
+  for (long left = small; left > 0; left -= in_cell)
+    cells.push_back({Species::small, per_side, std::min(left, in_cell)});
   random.shuffle(cells);
   return cells;
 }
@@ -117,7 +137,7 @@ Shower shower_of(const Scene& scene, long large, long small, double bottom, Rand
 {
   Shower shower{{}, bottom};
   const auto add = [&](Species lattice, const std::vector<Cell>& cells) {
-    add_rows(shower, scene, cells, lattice, random);
+    add_layers(shower, scene, cells, lattice, random);
   };
   const auto all_large = cells_of_one(Species::large, large);
   const auto all_small = cells_of_one(Species::small, small);
@@ -142,34 +162,39 @@ struct Numbers {
   long large, small;
 };
 
-/// Numbers of mobile grains that cover `area` (m^2).
-Numbers numbers_of(const Scene& scene, double area)
+/// Numbers of mobile grains that fill `volume`, m^2 or m^3.
+Numbers numbers_of(const Scene& scene, double volume)
 {
-  const double quarter_pi = std::numbers::pi / 4;
-  const double of_large = quarter_pi * scene.large_diameter * scene.large_diameter;
-  const long large = scene.large_grains.value_or(std::lround(scene.phi_large * area / of_large));
+  const double of_large = nominal_volume(scene, scene.large_diameter);
+  const long large = scene.large_grains.value_or(std::lround(scene.phi_large * volume / of_large));
   const double left = scene.large_grains
-                          ? std::max(0.0, area - static_cast<double>(large) * of_large)
-                          : (1 - scene.phi_large) * area;
-  return {large, std::lround(left / (quarter_pi * scene.small_diameter * scene.small_diameter))};
+                          ? std::max(0.0, volume - static_cast<double>(large) * of_large)
+                          : (1 - scene.phi_large) * volume;
+  return {large, std::lround(left / nominal_volume(scene, scene.small_diameter))};
 }
 
-/// Area of the mobile grains in the first attempt, m^2.
-double usual_area(const Scene& scene)
+/// Area or volume of the mobile grains in the first attempt, m^2 or m^3.
+double usual_volume(const Scene& scene)
 {
-  return usual_solid_fraction * bed_area(scene);
+  return (scene.dimension == 3 ? usual_of_spheres : usual_solid_fraction) * bed_area(scene);
 }
 
-/// Base and falling grains of a bed whose mobile grains cover `area` (m^2).
-Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
+/// Base and falling grains of a bed whose mobile grains fill `volume`, m^2 or m^3.
+Packing loose_packing(const Scene& scene, double volume, RandomNumbers& random)
 {
   Packing packing;
-  auto& world = packing.world;
-  const auto [large, small] = numbers_of(scene, area);
+  const auto [large, small] = numbers_of(scene, volume);
   if (large + small == 0)
     throw UsageError("the bed has no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
   const auto shower = shower_of(scene, large, small, boundaries.top, random);
+  packing.walls = boundaries.walls;
+  packing.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
+  if (scene.dimension == 3) {
+    packing.box.dimension = 3;
+    packing.box.length_z = scene.width;
+    packing.box.periodic_z = scene.sides == Scene::Lateral::periodic;
+  }
   const double of_large_grains = scene.density * scene.density_ratio;
   for (const auto& grain : shower.grains)
     add_grain(packing, grain.species, grain.radius,
@@ -177,22 +202,15 @@ Packing loose_packing(const Scene& scene, double area, RandomNumbers& random)
   for (std::size_t k = 0; k < boundaries.position.size(); ++k)
     add_grain(packing, Species::boundary, boundaries.radius[k], scene.density,
               boundaries.position[k]);
-  world.walls = boundaries.walls;
-  world.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
-  set_conditions(world, scene);
   return packing;
 }
 
-/// Falling bed. Its grains have random velocities, so that it does not land as a lattice.
-Simulation falling(const Packing& packing, const Scene& scene, RandomNumbers& random)
+/// Gives the grains of a falling bed random velocities, so that it does not land as a lattice.
+void set_falling(Packing& packing, const Scene& scene, RandomNumbers& random)
 {
-  Simulation simulation(packing.world, packing.position);
   const double speed = 0.5 * std::sqrt(scene.gravity * scene.small_diameter);
-  for (std::size_t g = 0; g < packing.position.size(); ++g) {
-    const double vx = random.gaussian(speed), vy = random.gaussian(speed);
-    if (!packing.world.grains.fixed[g]) simulation.set_velocity(g, {vx, vy});
-  }
-  return simulation;
+  for (auto& velocity : packing.velocity)
+    for (int k = 0; k < scene.dimension; ++k) velocity[k] = random.gaussian(speed);
 }
 
 /// Times at which a deposition checks whether the bed rests.
@@ -211,17 +229,20 @@ Looks looks_of(const Scene& scene)
           std::sqrt(2 * 0.2 * scene.depth / scene.gravity), 10 * fall, 20 * fall};
 }
 
-void set_restitution(double restitution, Simulation& simulation)
+template <int D>
+void set_restitution(double restitution, Simulation<D>& simulation)
 {
   auto world = simulation.world();
   if (world.material.restitution == restitution) return;
   world.material.restitution = restitution;
-  simulation = Simulation(world, simulation.state());
+  simulation = Simulation<D>(world, simulation.state());
 }
 
 /// If a check is due after `steps` steps and later than Looks::impatient, sets restitution to 0,
 /// halves the velocities of mobile grains and returns true.
-bool slow_down(Simulation& simulation, std::int64_t steps, const Scene& scene, const Looks& looks)
+template <int D>
+bool slow_down(Simulation<D>& simulation, std::int64_t steps, const Scene& scene,
+               const Looks& looks)
 {
   if (steps % looks.every != 0 || static_cast<double>(steps) * scene.step < looks.impatient)
     return false;
@@ -234,7 +255,8 @@ bool slow_down(Simulation& simulation, std::int64_t steps, const Scene& scene, c
 }
 
 /// Lets the bed fall until it rests; returns the number of steps.
-std::int64_t settle(Simulation& simulation, const Scene& scene, const DepositionHooks& hooks)
+template <int D>
+std::int64_t settle(Simulation<D>& simulation, const Scene& scene, const DepositionHooks<D>& hooks)
 {
   const double at_rest =
       2e-3 * mobile_mass(simulation.world().grains) * scene.gravity * scene.small_diameter;
@@ -261,10 +283,11 @@ std::int64_t settle(Simulation& simulation, const Scene& scene, const Deposition
 }
 
 /// Repeats a deposition of `steps` steps, which end at time 0, and calls hooks.record.
-void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
-            const DepositionHooks& hooks)
+template <int D>
+void replay(Simulation<D>& simulation, std::int64_t steps, const Scene& scene,
+            const DepositionHooks<D>& hooks)
 {
-  Frame<2> frame;
+  Frame<D> frame;
   const auto looks = looks_of(scene);
   simulation.set_clock(-steps);
   while (simulation.steps_done() < 0) {
@@ -280,24 +303,26 @@ void replay(Simulation& simulation, std::int64_t steps, const Scene& scene,
 
 }  // namespace
 
-void set_conditions(World& world, const Scene& scene)
+template <int D>
+void set_conditions(World<D>& world, const Scene& scene)
 {
   world.material = {scene.friction, scene.restitution};
   world.rotation = scene.rotation;
-  world.gravity = {0, -scene.gravity};
+  world.gravity = -scene.gravity * Vector<D>::UnitY();
   world.step = scene.step;
   world.solver = scene.solver;
   world.threads = scene.threads;
   world.law = law_parameters(scene);
 }
 
-double bed_height(const Simulation& simulation)
+template <int D>
+double bed_height(const Simulation<D>& simulation)
 {
   const auto& grains = simulation.world().grains;
   double area = 0, moment = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (grains.fixed[g]) continue;
-    const double own = grains.radius[g] * grains.radius[g];
+    const double own = std::pow(grains.radius[g], D);
     area += own;
     moment += own * simulation.position(g).y();
   }
@@ -306,7 +331,7 @@ double bed_height(const Simulation& simulation)
 
 double expected_grains(const Scene& scene)
 {
-  const auto [large, small] = numbers_of(scene, usual_area(scene));
+  const auto [large, small] = numbers_of(scene, usual_volume(scene));
   return static_cast<double>(large) + static_cast<double>(small) +
          static_cast<double>(scene.geometry->boundaries(scene).position.size());
 }
@@ -317,15 +342,17 @@ double expected_time_to_rest(const Scene& scene)
   return falls * std::sqrt(2 * scene.depth / scene.gravity);
 }
 
-Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
+template <int D>
+Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
 {
-  double area = usual_area(scene);
+  double volume = usual_volume(scene);
   // Not seeded again in each attempt: the height of a shallow bed varies by more than 2 %, so each
   // attempt needs other random numbers.
   RandomNumbers random(scene.seed);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    const auto packing = loose_packing(scene, area, random);
-    auto simulation = falling(packing, scene, random);
+    auto packing = loose_packing(scene, volume, random);
+    set_falling(packing, scene, random);
+    auto simulation = simulation_of<D>(packing, scene);
     const auto start = simulation;
     const auto steps = settle(simulation, scene, hooks);
     const double height = bed_height(simulation);
@@ -338,11 +365,18 @@ Simulation deposit(const Scene& scene, const DepositionHooks& hooks)
       simulation.set_clock(0);
       return simulation;
     }
-    area *= scene.depth / height;
+    volume *= scene.depth / height;
   }
   throw RunError(fmt::format(
       "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep?",
       scene.depth, most_attempts));
 }
+
+template void set_conditions(World<2>&, const Scene&);
+template double bed_height(const Simulation<2>&);
+template Simulation<2> deposit(const Scene&, const DepositionHooks<2>&);
+template void set_conditions(World<3>&, const Scene&);
+template double bed_height(const Simulation<3>&);
+template Simulation<3> deposit(const Scene&, const DepositionHooks<3>&);
 
 }  // namespace grseg

@@ -9,6 +9,7 @@
 namespace grseg {
 
 /// Functions that deposit() calls if they are set.
+template <int D>
 struct DepositionHooks {
   /// Called after every step with the time, s, of this attempt. An exception ends the deposition.
   std::function<void(double)> each_step;
@@ -16,7 +17,7 @@ struct DepositionHooks {
   std::function<void(double)> slowed;
   /// If set, the accepted deposition is repeated with the clock at negative times, and this
   /// function is called after every step; the frame is null in steps without one.
-  std::function<void(const StepReport&, const Simulation&, const Frame<2>*)> record;
+  std::function<void(const StepReport&, const Simulation<D>&, const Frame<D>*)> record;
 };
 
 /// A bed at rest on its base at slope 0, made by letting a loose random packing fall: large grains
@@ -31,7 +32,8 @@ struct DepositionHooks {
 ///
 /// Order of Grains: large grains, small grains, then boundary grains. The result has time 0 and
 /// gravity straight down; release() (geometry.hpp) starts the flow.
-Simulation deposit(const Scene& scene, const DepositionHooks& hooks = {});
+template <int D>
+Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks = {});
 
 /// Number of grains in the first attempt of deposit(), including boundary grains.
 double expected_grains(const Scene& scene);
@@ -41,9 +43,11 @@ double expected_time_to_rest(const Scene& scene);
 
 /// Sets all members of `world` that follow from `scene`, except grains, walls and box. Gravity
 /// points straight down.
-void set_conditions(World& world, const Scene& scene);
+template <int D>
+void set_conditions(World<D>& world, const Scene& scene);
 
-/// Twice the area-weighted mean height of the mobile grains above y = 0, m.
-double bed_height(const Simulation& simulation);
+/// Twice the area- or volume-weighted mean height of the mobile grains above y = 0, m.
+template <int D>
+double bed_height(const Simulation<D>& simulation);
 
 }  // namespace grseg

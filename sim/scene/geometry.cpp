@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/scene/geometry.hpp"
 
+#include "sim/scene/packing.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,15 +26,18 @@ double bed_area(const Scene& scene)
 {
   if (scene.geometry->bed_area) return scene.geometry->bed_area(scene);
   const auto room = room_at(scene, 0);
-  return scene.depth * (room.right - room.left);
+  const double area = scene.depth * (room.right - room.left);
+  return scene.dimension == 3 ? area * scene.width : area;
 }
 
-Gravity<2> gravity_of(const Scene& scene)
+template <int D>
+Gravity<D> gravity_of(const Scene& scene)
 {
   if (!scene.geometry->has_gravity) return {};
   const double slope = scene.slope * std::numbers::pi / 180;
-  return {{scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)},
-          scene.slope_rate * std::numbers::pi / 180};
+  Vector<D> gravity = Vector<D>::Zero();
+  gravity.template head<2>() << scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope);
+  return {gravity, scene.slope_rate * std::numbers::pi / 180};
 }
 
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains)
@@ -53,19 +58,32 @@ const std::vector<const Geometry*>& geometries()
   return all;
 }
 
-Simulation release(const Simulation& deposited, const Scene& scene)
+template <int D>
+Simulation<D> release(const Simulation<D>& deposited, const Scene& scene)
 {
-  const auto change = scene.geometry->release;
-  auto simulation = change ? change(deposited, scene) : deposited;
+  auto simulation = deposited;
+  if (scene.geometry->release) {
+    auto packing = packing_of(deposited);
+    scene.geometry->release(packing, scene);
+    simulation = simulation_of<D>(packing, scene);
+  }
   simulation.set_clock(0);
   start_flow(simulation, scene);
   return simulation;
 }
 
-void start_flow(Simulation& simulation, const Scene& scene)
+template <int D>
+void start_flow(Simulation<D>& simulation, const Scene& scene)
 {
-  simulation.tilt(gravity_of(scene));
+  simulation.tilt(gravity_of<D>(scene));
   simulation.drive(bodies_of(scene, simulation.world().grains));
 }
+
+template Gravity<2> gravity_of(const Scene&);
+template Gravity<3> gravity_of(const Scene&);
+template Simulation<2> release(const Simulation<2>&, const Scene&);
+template Simulation<3> release(const Simulation<3>&, const Scene&);
+template void start_flow(Simulation<2>&, const Scene&);
+template void start_flow(Simulation<3>&, const Scene&);
 
 }  // namespace grseg

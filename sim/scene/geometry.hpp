@@ -11,11 +11,13 @@
 
 namespace grseg {
 
+struct Packing;
+
 /// Boundaries of a scene during deposition.
 struct Boundaries {
-  std::vector<Vec2> position;  // m, of boundary grains
+  std::vector<Vec3> position;  // m, of boundary grains; z is 0 for discs
   std::vector<double> radius;  // m, of boundary grains
-  std::vector<Wall> walls;
+  std::vector<Wall<3>> walls;
   double top = 0;  // m, y of the top of the base
 };
 
@@ -42,13 +44,14 @@ struct Geometry {
   Boundaries (*boundaries)(const Scene& scene);
   /// Room for falling grains at height y, m; null: the whole length of the cell.
   Room (*room_at)(const Scene& scene, double y) = nullptr;
-  /// Area of the settled bed including voids, m^2; null: depth times width at y = 0.
+  /// Area or volume of the settled bed including voids, m^2 or m^3; null: depth times the cell at y
+  /// = 0.
   double (*bed_area)(const Scene& scene) = nullptr;
   /// True if the deposition is repeated until the height of the bed is Scene::depth.
   bool checks_height = true;
 
   /// Removes or adds boundaries at t = 0: opens a gate or an outlet, or adds a plate.
-  Simulation (*release)(const Simulation& deposited, const Scene& scene) = nullptr;
+  void (*release)(Packing& packing, const Scene& scene) = nullptr;
   /// True if `release` neither adds nor removes grains, so that frames before and after t = 0 can
   /// be in one file.
   bool keeps_grains = true;
@@ -70,7 +73,8 @@ Room room_at(const Scene& scene, double y);
 double bed_area(const Scene& scene);
 
 /// Gravity of the flow, including its slope; zero in a shear cell, which a plate presses instead.
-Gravity<2> gravity_of(const Scene& scene);
+template <int D>
+Gravity<D> gravity_of(const Scene& scene);
 
 /// Moving boundary grains of Scene::geometry; they are the last rows of `grains`.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
@@ -86,9 +90,11 @@ const std::vector<const Geometry*>& geometries();
 
 /// Simulation at t = 0: the gate of a column or the plug of a hopper is removed, the plate of a
 /// shear cell is added on top of the grains, gravity_of() acts, and boundaries begin to move.
-Simulation release(const Simulation& deposited, const Scene& scene);
+template <int D>
+Simulation<D> release(const Simulation<D>& deposited, const Scene& scene);
 
 /// Sets the gravity and the moving boundaries of the flow; the clock must be set before.
-void start_flow(Simulation& simulation, const Scene& scene);
+template <int D>
+void start_flow(Simulation<D>& simulation, const Scene& scene);
 
 }  // namespace grseg

@@ -9,28 +9,38 @@
 
 namespace grseg {
 
-/// World with the positions of its grains, m.
+/// Grains and walls of a scene in two or three dimensions; z is 0 for discs.
 struct Packing {
-  World world;
-  std::vector<Vec2> position;
+  Grains grains;
+  std::vector<Wall<3>> walls;
+  Box box;
+  std::vector<Vec3> position, velocity, spin;  // m, m/s, rad/s; per row of Grains
 };
 
-Packing packing_of(const Simulation& simulation);
+template <int D>
+Packing packing_of(const Simulation<D>& simulation);
 
-/// Appends a grain. `radius` in m, `density` in kg/m^2; boundary grains are fixed.
-void add_grain(Packing& packing, Species species, double radius, double density, const Vec2& at);
+/// Simulation of a packing under the conditions of `scene` (set_conditions). Boundary grains are at
+/// rest.
+template <int D>
+Simulation<D> simulation_of(const Packing& packing, const Scene& scene);
+
+/// Appends a grain of `density` (kg/m^2, of spheres kg/m^3) at rest; boundary grains are fixed.
+void add_grain(Packing& packing, Species species, double radius, double density, const Vec3& at);
 
 /// Removes the last `count` grains.
 void remove_last_grains(Packing& packing, std::size_t count);
-
-/// Simulation of `packing`. Its mobile grains get the velocities of the same rows of `before`.
-Simulation set_in_motion(const Packing& packing, const Simulation& before);
 
 // Parts of geometries: walls, and beads (boundary grains of the large nominal diameter).
 
 double bead_radius(const Scene& scene);  // m, half the large nominal diameter
 
-void add_bead(Boundaries& to, const Scene& scene, const Vec2& at);
+/// Adds a bead at (x, y), m; in three dimensions a line of touching or overlapping beads along z.
+/// Beads of odd lines are shifted by half a bead, so that neighbouring lines interlock.
+void add_bead(Boundaries& to, const Scene& scene, const Vec2& at, long line = 0);
+
+/// Distance of neighbouring beads or lines of beads that touch, m.
+double bead_spacing(const Scene& scene);
 
 /// y of the centres of a regular row of beads in the base, m.
 double height_of_base_centres(const Scene& scene);
@@ -41,7 +51,8 @@ std::vector<double> row_of_beads(const Scene& scene);
 /// Adds a base of beads with centres at `x`, m.
 void add_bead_base(Boundaries& to, const Scene& scene, const std::vector<double>& x);
 
-/// Adds walls at both ends of the cell if Scene::lateral is `walls`.
+/// Adds walls at both ends of the cell if Scene::lateral is `walls`, and along z if Scene::sides
+/// is.
 void add_side_walls(Boundaries& to, const Scene& scene);
 
 /// A base along the whole cell (beads or a straight wall, see Scene::base), and side walls.

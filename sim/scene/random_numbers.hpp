@@ -38,7 +38,8 @@ class RandomNumbers {
   }
 
   /// Random unit vector.
-  Vec2 direction()
+  template <int D>
+  Vector<D> direction()
   {
     double x = 0, y = 0, squared = 0;
     do {
@@ -46,7 +47,12 @@ class RandomNumbers {
       y = -1 + 2 * uniform();
       squared = x * x + y * y;
     } while (squared > 1 || squared == 0);
-    return {(x * x - y * y) / squared, 2 * x * y / squared};
+    if constexpr (D == 2) {
+      return {(x * x - y * y) / squared, 2 * x * y / squared};
+    } else {  // Marsaglia, Ann. Math. Stat. 43, 645 (1972)
+      const double factor = 2 * std::sqrt(1 - squared);
+      return {factor * x, factor * y, 1 - 2 * squared};
+    }
   }
 
   /// Puts `items` into random order.

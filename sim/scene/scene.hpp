@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -31,6 +32,8 @@ struct Scene {
   const Geometry* geometry = nullptr;
   double depth = 0;        // m, height H0 of the deposited bed above y = 0
   double length = 0;       // m, length of the cell along x
+  int dimension = 2;       // 2: discs, 3: spheres
+  double width = 0;        // m, of the cell along z, in three dimensions
   double slope = 0;        // degrees, slope of the base at t = 0
   double slope_rate = 0;   // degrees/s, rate of the slope after t = 0
   double gravity = 0;      // m/s^2; in a shear cell for the deposition and the time scale only
@@ -45,7 +48,7 @@ struct Scene {
   double base_height_spread = 0;    // m, range of heights
   double base_spacing = 0;          // m, mean distance of centres along x
   double base_spacing_spread = 0;   // (max - min)/mean of the distances
-  enum class Lateral { periodic, walls } lateral{};
+  enum class Lateral { periodic, walls } lateral{}, sides{};  // ends along x, and along z
   enum class Origin { top, centre } origin{};
 
   double drum_diameter = 0;    // m, inner diameter
@@ -76,6 +79,19 @@ struct Scene {
   std::int64_t steps_per_frame() const { return std::llround(frame_interval / step); }
   std::int64_t steps_in_all() const { return std::llround(duration / step); }
 };
+
+/// Length of the base, m, or its area, m^2.
+inline double base_area(const Scene& scene)
+{
+  return scene.dimension == 3 ? scene.length * scene.width : scene.length;
+}
+
+/// Area, m^2, or volume, m^3, of a grain of this nominal diameter, m.
+inline double nominal_volume(const Scene& scene, double diameter)
+{
+  if (scene.dimension == 3) return grain_volume<3>(diameter / 2);
+  return std::numbers::pi / 4 * diameter * diameter;
+}
 
 /// Parameters of the contact law of a scene.
 inline LawParameters law_parameters(const Scene& scene)

@@ -83,37 +83,39 @@ void extrapolate_rows(Real* now, std::size_t apart, Real* before, std::size_t co
     HWY_DYNAMIC_DISPATCH(rows_of_singles)(now, apart, before, count, rows, factor);
 }
 
-template <class Real, class Impulses>
-void extrapolate_impulses(std::span<BlockOf<Real>> now, Impulses* before, Real factor)
+template <int D, class Real, class Impulses>
+void extrapolate_impulses(std::span<BlockOf<D, Real>> now, Impulses* before, Real factor)
 {
-  using Members = MembersOf<Real, typename BlockOf<Real>::Lanes>;
+  using Members = MembersOf<D, Real, LanesOf<Real>>;
   static_assert(offsetof(Members, impulse_t) ==
-                offsetof(Members, impulse_n) + sizeof(typename BlockOf<Real>::Lanes));
+                offsetof(Members, impulse_n) + sizeof(LanesOf<Real>));
   if (!now.empty())
-    extrapolate_rows(now[0].impulse_n.data(), sizeof(BlockOf<Real>) / sizeof(Real),
-                     before->n.data(), std::size_t{2} * lanes_of<Real>, now.size(), factor);
+    extrapolate_rows(now[0].impulse_n.data(), sizeof(BlockOf<D, Real>) / sizeof(Real),
+                     before->n.data(), sizeof(Impulses) / sizeof(Real), now.size(), factor);
 }
 
-template <class Real>
-void extrapolate_motion(std::span<MotionOf<Real>> now, MotionOf<Real>* before, Real factor)
+template <int D, class Real>
+void extrapolate_motion(std::span<MotionOf<D, Real>> now, MotionOf<D, Real>* before, Real factor)
 {
-  if (!now.empty()) extrapolate_rows(&now[0].vx, 0, &before->vx, 4 * now.size(), 1, factor);
+  if (!now.empty())
+    extrapolate_rows(now[0].v.data(), 0, before->v.data(), numbers_per_body<D> * now.size(), 1,
+                     factor);
 }
 
 }  // namespace
 
-template <class Real>
-void ExtrapolationOf<Real>::begin(std::span<const RunsOf<Real>> strips,
-                                  std::span<const MotionOf<Real>> motion, int threads)
+template <int D, class Real>
+void ExtrapolationOf<D, Real>::begin(std::span<const RunsOf<D, Real>> strips,
+                                     std::span<const MotionOf<D, Real>> motion, int threads)
 {
   weight_ = first_weight;
   last_change_ = std::numeric_limits<double>::infinity();
   remember(strips, motion, threads);
 }
 
-template <class Real>
-void ExtrapolationOf<Real>::remember(std::span<const RunsOf<Real>> strips,
-                                     std::span<const MotionOf<Real>> motion, int threads)
+template <int D, class Real>
+void ExtrapolationOf<D, Real>::remember(std::span<const RunsOf<D, Real>> strips,
+                                        std::span<const MotionOf<D, Real>> motion, int threads)
 {
   impulses_.resize(strips.size());
   for_each_part(threads, strips.size(), [&](std::size_t s) {
@@ -130,44 +132,46 @@ void ExtrapolationOf<Real>::remember(std::span<const RunsOf<Real>> strips,
   });
 }
 
-template <class Real>
-void ExtrapolationOf<Real>::extrapolate(std::span<const RunsOf<Real>> strips,
-                                        std::span<MotionOf<Real>> motion, double change,
-                                        int threads)
+template <int D, class Real>
+void ExtrapolationOf<D, Real>::extrapolate(std::span<const RunsOf<D, Real>> strips,
+                                           std::span<MotionOf<D, Real>> motion, double change,
+                                           int threads)
 {
   if (change > last_change_) weight_ = 1;
   last_change_ = change;
   const auto factor = static_cast<Real>(next_factor());
   if (factor == 0) return remember(strips, motion, threads);
   for_each_part(threads, strips.size(), [&](std::size_t s) {
-    extrapolate_impulses<Real>(strips[s].blocks, impulses_[s].data(), factor);
+    extrapolate_impulses<D, Real>(strips[s].blocks, impulses_[s].data(), factor);
   });
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
-    extrapolate_motion<Real>(motion.subspan(begin, end - begin), &motion_[begin], factor);
+    extrapolate_motion<D, Real>(motion.subspan(begin, end - begin), &motion_[begin], factor);
   });
 }
 
-template <class Real>
-double ExtrapolationOf<Real>::next_factor()
+template <int D, class Real>
+double ExtrapolationOf<D, Real>::next_factor()
 {
   const double next = (1 + std::sqrt(1 + 4 * weight_ * weight_)) / 2;
   return (std::exchange(weight_, next) - 1) / next;
 }
 
-template <class Real>
-void ExtrapolationOf<Real>::extrapolate_strip(std::span<const RunsOf<Real>> strips,
-                                              std::size_t strip, std::span<MotionOf<Real>> motion,
-                                              double factor)
+template <int D, class Real>
+void ExtrapolationOf<D, Real>::extrapolate_strip(std::span<const RunsOf<D, Real>> strips,
+                                                 std::size_t strip,
+                                                 std::span<MotionOf<D, Real>> motion, double factor)
 {
   const auto& [blocks, ends, bodies] = strips[strip];
   const auto f = static_cast<Real>(factor);
-  extrapolate_impulses<Real>(blocks, impulses_[strip].data(), f);
-  extrapolate_motion<Real>(motion.subspan(bodies.begin, bodies.end - bodies.begin),
-                           motion_.data() + bodies.begin, f);
+  extrapolate_impulses<D, Real>(blocks, impulses_[strip].data(), f);
+  extrapolate_motion<D, Real>(motion.subspan(bodies.begin, bodies.end - bodies.begin),
+                              motion_.data() + bodies.begin, f);
 }
 
-template class ExtrapolationOf<double>;
-template class ExtrapolationOf<float>;
+template class ExtrapolationOf<2, double>;
+template class ExtrapolationOf<2, float>;
+template class ExtrapolationOf<3, double>;
+template class ExtrapolationOf<3, float>;
 
 }  // namespace grseg
 #endif  // HWY_ONCE

@@ -15,124 +15,161 @@
 #include "sim/contact/contact_law-inl.hpp"
 // clang-format on
 
+#ifndef GRSEG_SIM_SINGLE_FUNCTIONS
+#define GRSEG_SIM_SINGLE_FUNCTIONS
+namespace grseg {
+namespace {
+/// The functions below, compiled for an instruction set.
+template <int D>
+struct SingleFunctions {
+  void (*take_run)(std::span<const ContactBlock<D>>, const ContactBlock<D>& neutral, Motion<D>*,
+                   BlockOf<D, float>*, Effects);
+  void (*take_motion)(std::span<const Motion<D>>, MotionOf<D, float>*);
+  void (*give_run)(const BlockOf<D, float>*, double friction, std::span<ContactBlock<D>>,
+                   Motion<D>*, Effects);
+};
+}  // namespace
+}  // namespace grseg
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace grseg {
 namespace HWY_NAMESPACE {
 namespace {
 
-using SingleD = hn::Rebind<float, D>;
+using Singles = hn::Rebind<float, Doubles>;
 
 /// Applies the first guesses of a block of eight contacts, and copies it to half a block of
 /// sixteen, from lane `first` on.
-template <Effects with>
-HWY_INLINE void take_half(const ContactBlock& from, std::size_t first, Motion* motion,
-                          BlockOf<float>& to)
+template <Effects with, int D>
+HWY_INLINE void take_half(const ContactBlock<D>& from, std::size_t first, Motion<D>* motion,
+                          BlockOf<D, float>& to)
 {
-  const D d;
+  const Doubles d;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto store = [&](Vector numbers, BlockOf<float>::Lanes& lanes) HWY_ATTR {
-      hn::Store(hn::DemoteTo(SingleD(), numbers), SingleD(), &lanes[first + lane]);
+    const auto store = [&](Vector numbers, LanesOf<float>& lanes) HWY_ATTR {
+      hn::Store(hn::DemoteTo(Singles(), numbers), Singles(), &lanes[first + lane]);
     };
-    const auto c = load(from, lane);
-    auto a = load_bodies(d, members(motion), &from.i[lane]);
-    auto b = load_bodies(d, members(motion), &from.j[lane]);
-    push<with>(c, a, b, push_of<with>(c.nx, c.ny, c.kappa, c.impulse_n, c.impulse_t));
-    store_bodies(d, a, members(motion), &from.i[lane]);
-    store_bodies(d, b, members(motion), &from.j[lane]);
+    const auto store_all = [&](const auto& vectors, auto& lanes) HWY_ATTR {
+      for (std::size_t k = 0; k < lanes.size(); ++k) store(vectors[k], lanes[k]);
+    };
+    const auto c = load<D>(from, lane);
+    auto a = load_bodies<D>(d, members(motion), &from.i[lane]);
+    auto b = load_bodies<D>(d, members(motion), &from.j[lane]);
+    push<with>(c, a, b, push_of<with>(c.n, c.kappa, c.impulse_n, c.impulse_t));
+    store_bodies<D>(d, a, members(motion), &from.i[lane]);
+    store_bodies<D>(d, b, members(motion), &from.j[lane]);
 
     const auto w_nn = a.inverse_mass + b.inverse_mass;
-    store(c.nx, to.nx);
-    store(c.ny, to.ny);
+    store_all(c.n, to.n);
     store(c.kappa, to.kappa);
     store(c.mass_n * a.inverse_mass, to.weight_i);
     store(c.mass_n * b.inverse_mass, to.weight_j);
     store(c.mass_t * w_nn, to.mass_ratio);
     store(c.rebound, to.rebound);
     store(c.impulse_n * w_nn, to.base_n);
-    store(c.impulse_t * w_nn, to.base_t);
+    store_all(w_nn * c.impulse_t, to.base_t);
   }
-  std::fill_n(to.impulse_n.begin() + first, block_lanes, 0.0F);
-  std::fill_n(to.impulse_t.begin() + first, block_lanes, 0.0F);
+  const auto clear = [&](LanesOf<float>& lanes) {
+    std::fill_n(lanes.begin() + first, block_lanes, 0.0F);
+  };
+  clear(to.impulse_n);
+  for (auto& lanes : to.impulse_t) clear(lanes);
   std::copy_n(from.i.begin(), block_lanes, to.i.begin() + first);
   std::copy_n(from.j.begin(), block_lanes, to.j.begin() + first);
 }
 
 /// Copies the blocks of a run, two blocks of eight contacts into one of sixteen.
-template <Effects with>
-void take_run(std::span<const ContactBlock> run, const ContactBlock& neutral, Motion* motion,
-              BlockOf<float>* to)
+template <Effects with, int D>
+void take_run(std::span<const ContactBlock<D>> run, const ContactBlock<D>& neutral,
+              Motion<D>* motion, BlockOf<D, float>* to)
 {
   for (std::size_t b = 0; b < run.size(); b += 2, ++to) {
-    take_half<with>(run[b], 0, motion, *to);
-    take_half<with>(b + 1 < run.size() ? run[b + 1] : neutral, block_lanes, motion, *to);
+    take_half<with, D>(run[b], 0, motion, *to);
+    take_half<with, D>(b + 1 < run.size() ? run[b + 1] : neutral, block_lanes, motion, *to);
   }
   leave_vectors();
 }
 
-void take_run_for(std::span<const ContactBlock> run, const ContactBlock& neutral, Motion* motion,
-                  BlockOf<float>* to, Effects e)
+template <int D>
+void take_run_for(std::span<const ContactBlock<D>> run, const ContactBlock<D>& neutral,
+                  Motion<D>* motion, BlockOf<D, float>* to, Effects e)
 {
-  with_effects(e, [&]<Effects with>() { take_run<with>(run, neutral, motion, to); });
+  with_effects(e, [&]<Effects with>() { take_run<with, D>(run, neutral, motion, to); });
 }
 
-void take_motion(std::span<const Motion> from, MotionOf<float>* to)
+template <int D>
+void take_motion(std::span<const Motion<D>> from, MotionOf<D, float>* to)
 {
   const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> single;
-  alignas(32) static constexpr double without_mass[] = {1, 1, 1, 0};
   for (const auto& body : from) {
-    auto* number = members(to++);
-    for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d)) {
-      const auto kept = hn::Mul(hn::Load(d, &body.vx + k), hn::Load(d, without_mass + k));
-      hn::Store(hn::DemoteTo(single, kept), single, number + k);
-    }
+    auto* number = members(to);
+    for (std::size_t k = 0; k < numbers_per_body<D>; k += hn::MaxLanes(d))
+      hn::Store(hn::DemoteTo(single, hn::Load(d, body.v.data() + k)), single, number + k);
+    (to++)->inverse_mass = 0;
   }
   leave_vectors();
 }
 
 /// Adds the increments of eight contacts, from lane `first` on, to a block and its bodies.
-template <Effects with>
-HWY_INLINE void give_half(const BlockOf<float>& from, std::size_t first, double friction,
-                          ContactBlock& to, Motion* motion)
+template <Effects with, int D>
+HWY_INLINE void give_half(const BlockOf<D, float>& from, std::size_t first, double friction,
+                          ContactBlock<D>& to, Motion<D>* motion)
 {
-  const D d;
+  const Doubles d;
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-    const auto single = [&](const BlockOf<float>::Lanes& lanes) HWY_ATTR {
-      return hn::PromoteTo(d, hn::Load(SingleD(), &lanes[first + lane]));
+    const auto single = [&](const LanesOf<float>& lanes) HWY_ATTR {
+      return hn::PromoteTo(d, hn::Load(Singles(), &lanes[first + lane]));
     };
-    const auto c = load(to, lane);
+    const auto c = load<D>(to, lane);
     const auto more = single(from.impulse_n), sum = c.impulse_n + more * c.mass_n;
     const auto opened = more <= minus(single(from.base_n));
     const auto normal = hn::IfThenZeroElse(opened, larger(sum, hn::Zero(d)));
-    hn::Store(normal, d, &to.impulse_n[lane]);
-    auto more_t = hn::Zero(d);
+    store(normal, to.impulse_n, lane);
+    auto more_t = hn::Zero(d) * c.impulse_t;
     if constexpr (with.friction) {
       const auto limit = hn::Set(d, friction) * normal;
-      const auto sum_t = c.impulse_t + single(from.impulse_t) * c.mass_n;
+      const auto wanted =
+          components<std::tuple_size_v<Turning<D, Vector>>>([&](std::size_t k) HWY_ATTR {
+            return c.impulse_t[k] + single(from.impulse_t[k]) * c.mass_n;
+          });
+      auto tangential = within(in_plane(wanted, c.n), limit);
       // Adding zero turns -0 into 0: the sign of an unresolved increment has no meaning.
-      const auto tangential = smaller(larger(sum_t, minus(limit)), limit) + hn::Zero(d);
-      hn::Store(tangential, d, &to.impulse_t[lane]);
+      for (auto& t : tangential) t = t + hn::Zero(d);
+      store(tangential, to.impulse_t, lane);
       more_t = tangential - c.impulse_t;
     }
-    apply<with>(to, lane, normal - c.impulse_n, more_t, members(motion));
+    apply<with, D>(to, lane, normal - c.impulse_n, more_t, members(motion));
   }
 }
 
-template <Effects with>
-void give_run(const BlockOf<float>* from, double friction, std::span<ContactBlock> run,
-              Motion* motion)
+template <Effects with, int D>
+void give_run(const BlockOf<D, float>* from, double friction, std::span<ContactBlock<D>> run,
+              Motion<D>* motion)
 {
   for (std::size_t b = 0; b < run.size(); b += 2, ++from) {
-    give_half<with>(*from, 0, friction, run[b], motion);
-    if (b + 1 < run.size()) give_half<with>(*from, block_lanes, friction, run[b + 1], motion);
+    give_half<with, D>(*from, 0, friction, run[b], motion);
+    if (b + 1 < run.size()) give_half<with, D>(*from, block_lanes, friction, run[b + 1], motion);
   }
   leave_vectors();
 }
 
-void give_run_for(const BlockOf<float>* from, double friction, std::span<ContactBlock> run,
-                  Motion* motion, Effects e)
+template <int D>
+void give_run_for(const BlockOf<D, float>* from, double friction, std::span<ContactBlock<D>> run,
+                  Motion<D>* motion, Effects e)
 {
-  with_effects(e, [&]<Effects with>() { give_run<with>(from, friction, run, motion); });
+  with_effects(e, [&]<Effects with>() { give_run<with, D>(from, friction, run, motion); });
+}
+
+// Dispatch accepts no templates.
+SingleFunctions<2> functions_for_discs()
+{
+  return {take_run_for<2>, take_motion<2>, give_run_for<2>};
+}
+SingleFunctions<3> functions_for_spheres()
+{
+  return {take_run_for<3>, take_motion<3>, give_run_for<3>};
 }
 
 }  // namespace
@@ -144,16 +181,22 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(take_run_for);
-HWY_EXPORT(take_motion);
-HWY_EXPORT(give_run_for);
+HWY_EXPORT(functions_for_discs);
+HWY_EXPORT(functions_for_spheres);
 
-constexpr std::size_t numbers_per_body = sizeof(Motion) / sizeof(double);
+template <int D>
+SingleFunctions<D> functions()
+{
+  if constexpr (D == 2)
+    return HWY_DYNAMIC_DISPATCH(functions_for_discs)();
+  else
+    return HWY_DYNAMIC_DISPATCH(functions_for_spheres)();
+}
 
 /// Calls do_run(blocks of the run, index of its first block in single precision) for each run of a
 /// strip; returns the number of blocks in single precision.
-template <class Run>
-std::uint32_t for_each_run(const BlockRuns& strip, const Run& do_run)
+template <int D, class Run>
+std::uint32_t for_each_run(const BlockRuns<D>& strip, const Run& do_run)
 {
   std::uint32_t begin = 0, singles = 0;
   for (const auto end : strip.ends) {
@@ -166,12 +209,13 @@ std::uint32_t for_each_run(const BlockRuns& strip, const Run& do_run)
 
 }  // namespace
 
-void SingleContacts::take(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                          Effects effects, int threads)
+template <int D>
+void SingleContacts<D>::take(std::span<const BlockRuns<D>> strips, std::span<Motion<D>> motion,
+                             Effects effects, int threads)
 {
   strips_.resize(strips.size());
   runs_.resize(strips.size());
-  const auto idle = static_cast<std::uint32_t>(numbers_per_body * (motion.size() - 1));
+  const auto idle = static_cast<std::uint32_t>(numbers_per_body<D> * (motion.size() - 1));
   for_alternate_strips(threads, strips.size(), [&](std::size_t s) {
     take_strip(strips[s], motion.data(), idle, effects, strips_[s]);
     runs_[s] = {
@@ -180,36 +224,40 @@ void SingleContacts::take(std::span<const BlockRuns> strips, std::span<Motion> m
   });
   motion_.resize(motion.size());
   for_ranges(threads, motion.size(), [&](std::size_t begin, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(take_motion)(motion.subspan(begin, end - begin), &motion_[begin]);
+    functions<D>().take_motion(motion.subspan(begin, end - begin), &motion_[begin]);
   });
 }
 
-void SingleContacts::take_strip(const BlockRuns& contacts, Motion* motion, std::uint32_t idle,
-                                Effects effects, Strip& strip)
+template <int D>
+void SingleContacts<D>::take_strip(const BlockRuns<D>& contacts, Motion<D>* motion,
+                                   std::uint32_t idle, Effects effects, Strip& strip)
 {
-  ContactBlock neutral{};
+  ContactBlock<D> neutral{};
   neutral.i.fill(idle);
   neutral.j.fill(idle);
   strip.ends.clear();
   const auto count =
-      for_each_run(contacts, [&](std::span<const ContactBlock> run, std::uint32_t first) {
+      for_each_run(contacts, [&](std::span<const ContactBlock<D>> run, std::uint32_t first) {
         strip.ends.push_back(first + static_cast<std::uint32_t>((run.size() + 1) / 2));
       });
   if (strip.blocks.size() < count) strip.blocks.resize(count);
-  for_each_run(contacts, [&](std::span<const ContactBlock> run, std::uint32_t first) {
-    HWY_DYNAMIC_DISPATCH(take_run_for)(run, neutral, motion, &strip.blocks[first], effects);
+  for_each_run(contacts, [&](std::span<const ContactBlock<D>> run, std::uint32_t first) {
+    functions<D>().take_run(run, neutral, motion, &strip.blocks[first], effects);
   });
 }
 
-void SingleContacts::give_back(std::size_t strip, const BlockRuns& contacts, double friction,
-                               Effects effects, Motion* motion) const
+template <int D>
+void SingleContacts<D>::give_back(std::size_t strip, const BlockRuns<D>& contacts, double friction,
+                                  Effects effects, Motion<D>* motion) const
 {
   const auto& blocks = strips_[strip].blocks;
-  for_each_run(contacts, [&](std::span<ContactBlock> run, std::uint32_t first) {
-    HWY_DYNAMIC_DISPATCH(give_run_for)
-    (&blocks[first], friction, run, motion, effects);
+  for_each_run(contacts, [&](std::span<ContactBlock<D>> run, std::uint32_t first) {
+    functions<D>().give_run(&blocks[first], friction, run, motion, effects);
   });
 }
+
+template class SingleContacts<2>;
+template class SingleContacts<3>;
 
 }  // namespace grseg
 #endif  // HWY_ONCE

@@ -18,33 +18,42 @@ constexpr int most_body_rounds = 40;
 constexpr double settled = 1e-3;
 constexpr int most_rounds = 40;
 
-/// Components of `direction` along the normal and the tangent of a contact.
-Vec2 parts_of(const Vec2& direction, const Contact& contact)
+/// True if `direction` lies inside the friction cone of a contact.
+template <int D>
+bool in_cone(const Vector<D>& direction, const Contact<D>& contact, double friction)
 {
-  const Vec2 n(contact.nx, contact.ny), t(-contact.ny, contact.nx);
-  return {direction.dot(n), direction.dot(t)};
+  const Vector<D> n = vector_of(contact.n);
+  const double along = direction.dot(n);
+  double across = 0;
+  if constexpr (D == 2)
+    across = std::abs(direction.dot(Vec2(-n.y(), n.x())));
+  else
+    across = (direction - along * n).norm();
+  return across < friction * along;
 }
 
-/// Unit vector from contact point a to contact point b of one disc.
-Vec2 line_between(const Contact& a, const Contact& b)
+/// Unit vector from contact point a to contact point b of one grain.
+template <int D>
+Vector<D> line_between(const Contact<D>& a, const Contact<D>& b)
 {
-  return Vec2(a.kappa * a.nx - b.kappa * b.nx, a.kappa * a.ny - b.kappa * b.ny).normalized();
+  return (a.kappa * vector_of(a.n) - b.kappa * vector_of(b.n)).normalized();
 }
 
 /// True if the bodies j of two contacts move apart, by more than round-off.
-bool part(const Contact& a, const Contact& b, std::span<const Motion> motion)
+template <int D>
+bool part(const Contact<D>& a, const Contact<D>& b, std::span<const Motion<D>> motion)
 {
-  const auto velocity = [&](const Contact& c) {
-    const auto& body = motion[static_cast<std::size_t>(c.j)];
-    return Vec2(body.vx, body.vy);
+  const auto velocity = [&](const Contact<D>& c) {
+    return vector_of(motion[static_cast<std::size_t>(c.j)].v);
   };
-  const Vec2 of_a = velocity(a), of_b = velocity(b);
+  const Vector<D> of_a = velocity(a), of_b = velocity(b);
   return (of_b - of_a).dot(line_between(a, b)) > 1e-6 * (of_a.norm() + of_b.norm());
 }
 
-/// True if friction can lock a disc between two of its contacts. Limits the rebounds of such
+/// True if friction can lock a grain between two of its contacts. Limits the rebounds of such
 /// contacts to 0, and sets their first guesses to 0 if the two bodies move apart.
-bool prepare(std::span<const ContactPlace> contacts, std::span<const Motion> motion,
+template <int D>
+bool prepare(std::span<const ContactPlace<D>> contacts, std::span<const Motion<D>> motion,
              double friction)
 {
   bool locked = false;
@@ -56,7 +65,7 @@ bool prepare(std::span<const ContactPlace> contacts, std::span<const Motion> mot
       const bool parting = part(a, b, motion);
       for (const auto& place : {contacts[k], contacts[l]}) {
         place.bar_rebound();
-        if (parting) place.set_impulse(0, 0);
+        if (parting) place.set_impulse(0, {});
       }
     }
   return locked;
@@ -64,35 +73,37 @@ bool prepare(std::span<const ContactPlace> contacts, std::span<const Motion> mot
 
 }  // namespace
 
-bool locks(const Contact& a, const Contact& b, double friction)
+template <int D>
+bool locks(const Contact<D>& a, const Contact<D>& b, double friction)
 {
-  const Vec2 line = line_between(a, b), of_a = parts_of(line, a), of_b = parts_of(-line, b);
-  const auto inside = [&](const Vec2& along) { return std::abs(along.y()) < friction * along.x(); };
-  return inside(of_a) && inside(of_b);
+  const Vector<D> line = line_between(a, b);
+  return in_cone<D>(line, a, friction) && in_cone<D>(-line, b, friction);
 }
 
-WedgedGrains::WedgedGrains(std::span<const std::span<ContactBlock>> on_base,
-                           std::span<const Motion> motion, double friction)
+template <int D>
+WedgedGrains<D>::WedgedGrains(std::span<const std::span<ContactBlock<D>>> on_base,
+                              std::span<const Motion<D>> motion, double friction)
 {
-  std::vector<ContactPlace> all;
+  std::vector<ContactPlace<D>> all;
   for (const auto& blocks : on_base)
     for (auto& block : blocks)
       for (std::uint32_t lane = 0; lane < block_lanes; ++lane)
-        if (motion[block.i[lane] / doubles_per_body].inverse_mass > 0)
+        if (motion[block.i[lane] / numbers_per_body<D>].inverse_mass > 0)
           all.push_back({&block, lane});
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.i() < b.i(); });
   for (auto begin = all.begin(); begin != all.end();) {
     const auto end =
         std::find_if(begin, all.end(), [&](const auto& p) { return p.i() != begin->i(); });
-    if (prepare({begin, end}, motion, friction)) grains_.emplace_back(begin, end);
+    if (prepare<D>({begin, end}, motion, friction)) grains_.emplace_back(begin, end);
     begin = end;
   }
 }
 
-double WedgedGrains::settle(std::span<Motion> motion, double friction, Effects effects)
+template <int D>
+double WedgedGrains<D>::settle(std::span<Motion<D>> motion, double friction, Effects effects)
 {
-  const auto relax_alone = choose_relax(effects);
+  const auto relax_alone = choose_relax<D>(effects);
   double most = 0;
   for (const auto& contacts : grains_) {
     double largest = 0;
@@ -100,7 +111,7 @@ double WedgedGrains::settle(std::span<Motion> motion, double friction, Effects e
       double change = 0;
       for (const auto& contact : contacts) {
         const auto c = contact.relax(relax_alone, effects.restitution, motion, friction);
-        change = std::max({change, c.change_n, c.change_t});
+        change = std::max({change, c.change_n, vector_of(c.change_t).norm()});
       }
       largest = std::max(largest, change);
       if (change <= settled * largest) break;
@@ -110,8 +121,10 @@ double WedgedGrains::settle(std::span<Motion> motion, double friction, Effects e
   return most;
 }
 
-FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std::uint32_t> place,
-                       std::span<const BlockRuns> strips, std::span<const Motion> motion)
+template <int D>
+FreeBodies<D>::FreeBodies(std::span<const BoundaryBody> bodies,
+                          std::span<const std::uint32_t> place,
+                          std::span<const BlockRuns<D>> strips, std::span<const Motion<D>> motion)
 {
   constexpr auto nobody = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> body_at(motion.size(), nobody);  // per index in `motion`
@@ -122,39 +135,44 @@ FreeBodies::FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std
       own.members.push_back(place[row]);
       body_at[place[row]] = static_cast<std::uint32_t>(bodies_.size());
     }
-    own.free_velocity = motion[own.members.front()].vy;
+    own.free_velocity = motion[own.members.front()].v[1];
     bodies_.push_back(std::move(own));
   }
   for (const auto& strip : strips)
     for (auto& block : strip.blocks)
       for (std::uint32_t lane = 0; lane < block_lanes; ++lane) {
-        const ContactPlace contact{&block, lane};
+        const ContactPlace<D> contact{&block, lane};
         const auto body = body_at[contact.j()];
         if (body != nobody) bodies_[body].contacts.push_back(contact);
       }
 }
 
-double FreeBodies::update_velocities(std::span<Motion> motion)
+template <int D>
+double FreeBodies<D>::update_velocities(std::span<Motion<D>> motion)
 {
   double largest = 0;
   for (const auto& body : bodies_) {
     double impulse = 0, answer = 0;
     for (const auto& [block, lane] : body.contacts) {
-      const double nx = block->nx[lane], ny = block->ny[lane];
-      impulse -= block->impulse_n[lane] * ny + block->impulse_t[lane] * nx;
+      const double nx = block->n[0][lane], ny = block->n[1][lane];
+      const double t = D == 2 ? block->impulse_t[0][lane] * nx : block->impulse_t[D - 2][lane];
+      const double mass_t = block->mass_t[lane];
+      impulse -= block->impulse_n[lane] * ny + t;
       if (block->impulse_n[lane] > 0)
-        answer += block->mass_n[lane] * ny * ny + block->mass_t[lane] * nx * nx;
+        answer +=
+            block->mass_n[lane] * ny * ny + (D == 2 ? mass_t * nx * nx : mass_t * (1 - ny * ny));
     }
-    const double velocity = motion[body.members.front()].vy;
+    const double velocity = motion[body.members.front()].v[1];
     const double change =
         (body.mass * (body.free_velocity - velocity) + impulse) / (body.mass + answer);
-    for (const auto member : body.members) motion[member].vy = velocity + change;
+    for (const auto member : body.members) motion[member].v[1] = velocity + change;
     largest = std::max(largest, std::abs(change));
   }
   return largest;
 }
 
-double FreeBodies::balance(std::span<Motion> motion, double friction, Effects effects)
+template <int D>
+double FreeBodies<D>::balance(std::span<Motion<D>> motion, double friction, Effects effects)
 {
   double largest = 0;
   for (int round = 0; round < most_body_rounds; ++round) {
@@ -167,12 +185,20 @@ double FreeBodies::balance(std::span<Motion> motion, double friction, Effects ef
   return largest;
 }
 
-void FreeBodies::relax_contacts(std::span<Motion> motion, double friction, Effects effects)
+template <int D>
+void FreeBodies<D>::relax_contacts(std::span<Motion<D>> motion, double friction, Effects effects)
 {
-  const auto relax_alone = choose_relax(effects);
+  const auto relax_alone = choose_relax<D>(effects);
   for (const auto& body : bodies_)
     for (const auto& contact : body.contacts)
       contact.relax(relax_alone, effects.restitution, motion, friction);
 }
+
+template class FreeBodies<2>;
+template class FreeBodies<3>;
+template class WedgedGrains<2>;
+template class WedgedGrains<3>;
+template bool locks(const Contact<2>&, const Contact<2>&, double);
+template bool locks(const Contact<3>&, const Contact<3>&, double);
 
 }  // namespace grseg

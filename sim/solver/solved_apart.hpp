@@ -12,35 +12,39 @@
 
 namespace grseg {
 
-constexpr std::uint32_t doubles_per_body = sizeof(Motion) / sizeof(double);
-
 /// Place of a contact that is solved by itself: a lane of a block.
+template <int D>
 struct ContactPlace {
-  ContactBlock* block;
+  ContactBlock<D>* block;
   std::uint32_t lane;
 
   /// Indices of the two bodies in the span of Motion.
-  std::uint32_t i() const { return block->i[lane] / doubles_per_body; }
-  std::uint32_t j() const { return block->j[lane] / doubles_per_body; }
+  std::uint32_t i() const { return block->i[lane] / numbers_per_body<D>; }
+  std::uint32_t j() const { return block->j[lane] / numbers_per_body<D>; }
 
-  Contact contact() const
+  Contact<D> contact() const
   {
     const auto& b = *block;
-    return {{b.nx[lane], b.ny[lane], b.kappa[lane], b.mass_n[lane], b.mass_t[lane], b.rebound[lane],
-             b.impulse_n[lane], b.impulse_t[lane]},
+    const auto at = [this](const auto& components) {
+      std::array<double, std::tuple_size_v<std::decay_t<decltype(components)>>> values;
+      for (std::size_t k = 0; k < values.size(); ++k) values[k] = components[k][lane];
+      return values;
+    };
+    return {{at(b.n), b.kappa[lane], b.mass_n[lane], b.mass_t[lane], b.rebound[lane],
+             b.impulse_n[lane], at(b.impulse_t)},
             static_cast<std::int32_t>(i()),
             static_cast<std::int32_t>(j())};
   }
-  void set_impulse(double n, double t) const
+  void set_impulse(double n, const Turning<D, double>& t) const
   {
     block->impulse_n[lane] = n;
-    block->impulse_t[lane] = t;
+    for (std::size_t k = 0; k < t.size(); ++k) block->impulse_t[k][lane] = t[k];
   }
   /// Limits the rebound to 0, so that the contact only has to stop its approach.
   void bar_rebound() const { block->rebound[lane] = std::min(block->rebound[lane], 0.0); }
   /// Relaxes the contact once. Without `restitution` its rebound counts as 0.
-  Relaxed<double> relax(Relax relax_alone, bool restitution, std::span<Motion> motion,
-                        double friction) const
+  Relaxed<D, double> relax(Relax<D> relax_alone, bool restitution, std::span<Motion<D>> motion,
+                           double friction) const
   {
     auto alone = contact();
     if (!restitution) alone.rebound = 0;
@@ -57,26 +61,27 @@ struct ContactPlace {
 /// until V settles. P is the sum of the body's contact impulses along y, V_free its velocity
 /// without contacts. If even a small part of the load's impulse remained in each step, the body
 /// would sink into the grains.
+template <int D>
 class FreeBodies {
  public:
   /// `place`: for each row of Grains, its index in `motion`.
   FreeBodies(std::span<const BoundaryBody> bodies, std::span<const std::uint32_t> place,
-             std::span<const BlockRuns> strips, std::span<const Motion> motion);
+             std::span<const BlockRuns<D>> strips, std::span<const Motion<D>> motion);
 
   /// Sets the velocities of all free bodies from the impulses in the blocks. Returns the largest
   /// change of a velocity, m/s.
-  double update_velocities(std::span<Motion> motion);
+  double update_velocities(std::span<Motion<D>> motion);
   /// Solves the free bodies with their contacts, whose impulses change. Returns the largest change
   /// of a body's velocity, m/s.
-  double balance(std::span<Motion> motion, double friction, Effects effects);
+  double balance(std::span<Motion<D>> motion, double friction, Effects effects);
 
  private:
-  void relax_contacts(std::span<Motion> motion, double friction, Effects effects);
+  void relax_contacts(std::span<Motion<D>> motion, double friction, Effects effects);
 
   struct Body {
     double mass, free_velocity;          // M, kg; V_free, m/s
     std::vector<std::uint32_t> members;  // indices of its grains in `motion`
-    std::vector<ContactPlace> contacts;
+    std::vector<ContactPlace<D>> contacts;
   };
   std::vector<Body> bodies_;
 };
@@ -90,29 +95,32 @@ class FreeBodies {
 /// sink deeper, step after step. So the two contacts are relaxed in turn, after each sweep, until
 /// they settle. If the bodies approach each other no impulses stop a locked grain, and impulses add
 /// up; they are set to 0 when the bodies move apart.
+template <int D>
 class WedgedGrains {
  public:
   /// `on_base`: contacts with immobile bodies. Sets to 0 the rebounds of locked grains, and their
   /// first guesses if the two bodies move apart.
-  WedgedGrains(std::span<const std::span<ContactBlock>> on_base, std::span<const Motion> motion,
-               double friction);
+  WedgedGrains(std::span<const std::span<ContactBlock<D>>> on_base,
+               std::span<const Motion<D>> motion, double friction);
 
   bool empty() const { return grains_.empty(); }
   /// Solves the contacts of each locked grain. Returns the largest change of a contact's relative
   /// velocity, m/s.
-  double settle(std::span<Motion> motion, double friction, Effects effects);
+  double settle(std::span<Motion<D>> motion, double friction, Effects effects);
 
  private:
-  std::vector<std::vector<ContactPlace>> grains_;
+  std::vector<std::vector<ContactPlace<D>>> grains_;
 };
 
-/// True if friction can lock a disc between its contacts a and b.
-bool locks(const Contact& a, const Contact& b, double friction);
+/// True if friction can lock a grain between its contacts a and b.
+template <int D>
+bool locks(const Contact<D>& a, const Contact<D>& b, double friction);
 
 /// Bodies that are solved separately after each sweep; null if there are none.
+template <int D>
 struct SolvedApart {
-  FreeBodies* free = nullptr;
-  WedgedGrains* wedged = nullptr;
+  FreeBodies<D>* free = nullptr;
+  WedgedGrains<D>* wedged = nullptr;
 
   bool any() const { return free != nullptr || wedged != nullptr; }
 };

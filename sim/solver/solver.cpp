@@ -24,12 +24,13 @@ constexpr int sweeps_before_round_off = 32;
 constexpr int most_without_restart = 8;
 
 /// Largest component of all velocities, m/s.
-template <class Real>
-double fastest(std::span<const MotionOf<Real>> motion)
+template <int D, class Real>
+double fastest(std::span<const MotionOf<D, Real>> motion)
 {
   Real largest = 0;
   for (const auto& m : motion)
-    largest = std::max({largest, std::abs(m.vx), std::abs(m.vy), std::abs(m.rim_speed)});
+    for (const auto& components : {std::span<const Real>(m.v), std::span<const Real>(m.rim)})
+      for (const Real v : components) largest = std::max(largest, std::abs(v));
   return largest;
 }
 
@@ -46,10 +47,10 @@ SweepResult total(const std::vector<SweepResult>& strips)
 
 /// Chooses the strips to sweep: all strips, until few have changes above the tolerance, then only
 /// these and their neighbours. In a wide scene some contact always needs more sweeps.
-template <class Real>
+template <int D, class Real>
 class LocalWork {
  public:
-  explicit LocalWork(std::span<const RunsOf<Real>> strips)
+  explicit LocalWork(std::span<const RunsOf<D, Real>> strips)
       : strips_(strips), swept_(strips.size(), 1)
   {
     for (const auto& strip : strips) all_ += strip.blocks.size();
@@ -82,18 +83,18 @@ class LocalWork {
   }
 
  private:
-  std::span<const RunsOf<Real>> strips_;
+  std::span<const RunsOf<D, Real>> strips_;
   std::vector<std::uint8_t> swept_;
   std::size_t relaxed_ = 0, all_ = 0;  // blocks relaxed so far; blocks in all strips
   bool local_ = false;
 };
 
 /// One solve; the velocities must already include the effect of the first guess.
-template <class Real>
+template <int D, class Real>
 class Sweeping {
  public:
-  Sweeping(std::span<const RunsOf<Real>> strips, std::span<MotionOf<Real>> motion,
-           const SolverTask& task, ExtrapolationOf<Real>& extrapolation)
+  Sweeping(std::span<const RunsOf<D, Real>> strips, std::span<MotionOf<D, Real>> motion,
+           const SolverTask<D>& task, ExtrapolationOf<D, Real>& extrapolation)
       : strips_(strips),
         motion_(motion),
         task_(task),
@@ -178,8 +179,8 @@ class Sweeping {
 
   void sweep_strip(std::size_t strip, Measured measured)
   {
-    const auto quick = choose_sweep<Real>(task_.effects, Measured::squares),
-               last = choose_sweep<Real>(task_.effects, measured);
+    const auto quick = choose_sweep<D, Real>(task_.effects, Measured::squares),
+               last = choose_sweep<D, Real>(task_.effects, measured);
     const auto friction = static_cast<Real>(task_.friction);
     if (at_a_time_ > 1) quick(strips_[strip], motion_.data(), friction);
     results_[strip] = last(strips_[strip], motion_.data(), friction);
@@ -198,7 +199,7 @@ class Sweeping {
         relative(std::sqrt(result.sum_squares / static_cast<double>(task_.count)));
     report.converged = report.residual <= task_.settings.tolerance;
     if (!report.converged && sweeps_ >= sweeps_before_round_off) {
-      if (round_off_ == 0) round_off_ = last_digits<Real> * fastest<Real>(motion_);
+      if (round_off_ == 0) round_off_ = last_digits<Real> * fastest<D, Real>(motion_);
       report.converged = result.largest <= round_off_;
     }
     return report;
@@ -211,25 +212,26 @@ class Sweeping {
     return std::clamp(mean, task_.range.least, task_.range.most);
   }
 
-  std::span<const RunsOf<Real>> strips_;
-  std::span<MotionOf<Real>> motion_;
-  const SolverTask& task_;
-  ExtrapolationOf<Real>& extrapolation_;
+  std::span<const RunsOf<D, Real>> strips_;
+  std::span<MotionOf<D, Real>> motion_;
+  const SolverTask<D>& task_;
+  ExtrapolationOf<D, Real>& extrapolation_;
   const int least_;  // least number of sweeps
   // Sweeps of a strip in a row: in the second one, its contacts are in the cache.
   const int at_a_time_;
   int sweeps_ = 0;
   std::vector<SweepResult> results_;  // per strip, of the last sweep
-  LocalWork<Real> work_;
+  LocalWork<D, Real> work_;
   double round_off_ = 0;  // m/s, set when it is needed
 };
-SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                         const SolverTask& task, SolverMemory& memory)
+template <int D>
+SolverReport solve_mixed(std::span<const BlockRuns<D>> strips, std::span<Motion<D>> motion,
+                         const SolverTask<D>& task, SolverMemory<D>& memory)
 {
   auto& contacts = memory.contacts;
   contacts.take(strips, motion, task.effects, task.threads);
-  const auto report =
-      Sweeping<float>(contacts.strips(), contacts.motion(), task, memory.singles).until_settled();
+  const auto report = Sweeping<D, float>(contacts.strips(), contacts.motion(), task, memory.singles)
+                          .until_settled();
   for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
     contacts.give_back(s, strips[s], task.friction, task.effects, motion.data());
   });
@@ -238,32 +240,38 @@ SolverReport solve_mixed(std::span<const BlockRuns> strips, std::span<Motion> mo
 
 }  // namespace
 
-SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                            const SolverTask& task, SolverMemory& memory)
+template <int D>
+SolverReport solve_contacts(std::span<const BlockRuns<D>> strips, std::span<Motion<D>> motion,
+                            const SolverTask<D>& task, SolverMemory<D>& memory)
 {
   const auto& apart = task.apart;
   if (task.count == 0) return {};
   if (task.settings.precision == Precision::mixed && !apart.any())
-    return solve_mixed(strips, motion, task, memory);
+    return solve_mixed<D>(strips, motion, task, memory);
   const auto apply = [&] {
     for_alternate_strips(task.threads, strips.size(), [&](std::size_t s) {
-      apply_impulses(strips[s].blocks, motion.data(), task.effects);
+      apply_impulses<D>(strips[s].blocks, motion.data(), task.effects);
     });
   };
   if (apart.free == nullptr) {
     apply();
-    return Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
+    return Sweeping<D, double>(strips, motion, task, memory.doubles).until_settled();
   }
   // Impulses may be far larger in between than at the end, and their round-off stays in velocities.
   // So velocities are computed again, from the final impulses alone.
   memory.free_flight.assign(motion.begin(), motion.end());
   apply();
   apart.free->update_velocities(motion);
-  const auto report = Sweeping<double>(strips, motion, task, memory.doubles).until_settled();
+  const auto report = Sweeping<D, double>(strips, motion, task, memory.doubles).until_settled();
   for (std::size_t k = 0; k < motion.size(); ++k)
     if (motion[k].inverse_mass > 0) motion[k] = memory.free_flight[k];
   apply();
   return report;
 }
+
+template SolverReport solve_contacts(std::span<const BlockRuns<2>>, std::span<Motion<2>>,
+                                     const SolverTask<2>&, SolverMemory<2>&);
+template SolverReport solve_contacts(std::span<const BlockRuns<3>>, std::span<Motion<3>>,
+                                     const SolverTask<3>&, SolverMemory<3>&);
 
 }  // namespace grseg

@@ -33,11 +33,12 @@ struct SolverSettings {
 };
 
 /// Scratch space of the solver, which the caller reuses in every step.
+template <int D>
 struct SolverMemory {
-  ExtrapolationOf<double> doubles;
-  ExtrapolationOf<float> singles;
-  SingleContacts contacts;
-  std::vector<Motion> free_flight;
+  ExtrapolationOf<D, double> doubles;
+  ExtrapolationOf<D, float> singles;
+  SingleContacts<D> contacts;
+  std::vector<Motion<D>> free_flight;
 };
 
 /// Limits of the reference velocity, with which changes are compared, m/s.
@@ -51,6 +52,7 @@ struct ReferenceRange {
 };
 
 /// Parameters of a solve.
+template <int D>
 struct SolverTask {
   std::size_t count;  // number of contacts
   double friction;
@@ -58,7 +60,7 @@ struct SolverTask {
   SolverSettings settings;
   ReferenceRange range;
   int threads = 1;
-  SolvedApart apart = {};
+  SolvedApart<D> apart = {};
 };
 
 /// Outcome of a step's solve. Not converging is a result: it is stored and reported, not thrown.
@@ -92,7 +94,8 @@ struct SolverReport {
 /// theirs (Wavefront). If changes above the tolerance remain in at most a quarter of the strips,
 /// only these and their neighbours are swept further, without extrapolation. Neither is done with
 /// bodies that are solved separately (SolvedApart).
-SolverReport solve_contacts(std::span<const BlockRuns> strips, std::span<Motion> motion,
-                            const SolverTask& task, SolverMemory& memory);
+template <int D>
+SolverReport solve_contacts(std::span<const BlockRuns<D>> strips, std::span<Motion<D>> motion,
+                            const SolverTask<D>& task, SolverMemory<D>& memory);
 
 }  // namespace grseg

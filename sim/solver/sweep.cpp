@@ -25,27 +25,28 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// SweepResult, one number per lane.
-template <class Real, Measured measured>
+template <int D, class Real, Measured measured>
 struct alignas(64) LaneResults {
   using Tag = TagOf<Real>;
   using V = hn::Vec<Tag>;
-  typename BlockOf<Real>::Lanes largest{}, squares{}, reference{};
+  LanesOf<Real> largest{}, squares{}, reference{};
 
   template <Effects with>
-  HWY_INLINE void add(std::size_t lane, const Relaxed<V>& r)
+  HWY_INLINE void add(std::size_t lane, const Relaxed<D, V>& r)
   {
-    const auto update = [&](typename BlockOf<Real>::Lanes& lanes, auto next, V normal,
-                            [[maybe_unused]] V tangential) HWY_ATTR {
-      V found = next(load(lanes, lane), normal);
-      if constexpr (with.friction) found = next(found, tangential);
-      hn::Store(found, Tag(), &lanes[lane]);
-    };
-    const auto add_square = [](V sum, V x) HWY_ATTR { return sum + x * x; };
-    update(squares, add_square, r.change_n, r.change_t);
+    const auto add_squares = [&](LanesOf<Real>& lanes, V normal, const Turning<D, V>& tangential)
+                                 HWY_ATTR {
+                                   V sum = load(lanes, lane) + normal * normal;
+                                   if constexpr (with.friction)
+                                     for (const V t : tangential) sum = sum + t * t;
+                                   store(sum, lanes, lane);
+                                 };
+    add_squares(squares, r.change_n, r.change_t);
     if constexpr (measured == Measured::squares) return;
-    update(
-        largest, [](V most, V x) HWY_ATTR { return larger(most, x); }, r.change_n, r.change_t);
-    update(reference, add_square, r.level_n, r.level_t);
+    V most = larger(load(largest, lane), r.change_n);
+    if constexpr (with.friction) most = larger(most, norm(r.change_t));
+    store(most, largest, lane);
+    add_squares(reference, r.level_n, r.level_t);
   }
   HWY_INLINE SweepResult total() const
   {
@@ -56,23 +57,23 @@ struct alignas(64) LaneResults {
 /// Relaxes blocks that share no mobile body. The bodies of the next contacts are loaded before the
 /// present contacts are relaxed. A relaxation is one long chain of operations, and the processor
 /// does not look far enough ahead to fill its pauses with the next relaxation by itself.
-template <Effects with, class Real, class Results>
-HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* motion,
+template <Effects with, int D, class Real, class Results>
+HWY_INLINE void sweep_run(BlockOf<D, Real>* block, const BlockOf<D, Real>* end, Real* motion,
                           hn::Vec<TagOf<Real>> friction, Results& results)
 {
   const TagOf<Real> d;
-  auto a = load_bodies(d, motion, &block->i[0]), b = load_bodies(d, motion, &block->j[0]);
+  auto a = load_bodies<D>(d, motion, &block->i[0]), b = load_bodies<D>(d, motion, &block->j[0]);
   for (; block != end; ++block) {
     for (std::size_t lane = 0; lane < lanes_of<Real>; lane += hn::MaxLanes(d)) {
       const bool same = lane + hn::MaxLanes(d) < lanes_of<Real>;
       const auto* next = same || block + 1 == end ? block : block + 1;
       const std::size_t next_lane = same ? lane + hn::MaxLanes(d) : 0;
-      const auto next_a = load_bodies(d, motion, &next->i[next_lane]);
-      const auto next_b = load_bodies(d, motion, &next->j[next_lane]);
+      const auto next_a = load_bodies<D>(d, motion, &next->i[next_lane]);
+      const auto next_b = load_bodies<D>(d, motion, &next->j[next_lane]);
       auto contacts = load(*block, lane);
       const auto relaxed = relax<with>(contacts, a, b, friction);
-      hn::Store(contacts.impulse_n, d, &block->impulse_n[lane]);
-      if constexpr (with.friction) hn::Store(contacts.impulse_t, d, &block->impulse_t[lane]);
+      store(contacts.impulse_n, block->impulse_n, lane);
+      if constexpr (with.friction) store(contacts.impulse_t, block->impulse_t, lane);
       results.template add<with>(lane, relaxed);
       store_bodies(d, a, motion, &block->i[lane]);
       store_bodies(d, b, motion, &block->j[lane]);
@@ -82,10 +83,10 @@ HWY_INLINE void sweep_run(BlockOf<Real>* block, const BlockOf<Real>* end, Real* 
   }
 }
 
-template <Effects with, class Real, Measured measured>
-SweepResult sweep(const RunsOf<Real>& contacts, MotionOf<Real>* motion, Real friction)
+template <Effects with, int D, class Real, Measured measured>
+SweepResult sweep(const RunsOf<D, Real>& contacts, MotionOf<D, Real>* motion, Real friction)
 {
-  LaneResults<Real, measured> results;
+  LaneResults<D, Real, measured> results;
   const auto coefficient = hn::Set(TagOf<Real>(), friction);
   auto* blocks = contacts.blocks.data();
   std::uint32_t begin = 0;
@@ -98,12 +99,11 @@ SweepResult sweep(const RunsOf<Real>& contacts, MotionOf<Real>* motion, Real fri
   return total;
 }
 
-template <Effects with>
-void apply(std::span<const ContactBlock> blocks, Motion* motion)
+template <Effects with, int D>
+void apply(std::span<const ContactBlock<D>> blocks, Motion<D>* motion)
 {
-  const D d;
   for (const auto& c : blocks) {
-    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
+    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(Doubles())) {
       apply<with>(c, lane, load(c.impulse_n, lane), load(c.impulse_t, lane), members(motion));
     }
   }
@@ -111,29 +111,45 @@ void apply(std::span<const ContactBlock> blocks, Motion* motion)
 }
 
 /// Returns sweep() with the effects of the scene as template arguments.
-template <class Real>
-SweepOf<Real> sweep_for(Effects e, Measured measured)
+template <int D, class Real>
+SweepOf<D, Real> sweep_for(Effects e, Measured measured)
 {
   return with_flags(
-      []<bool friction, bool rotation, bool restitution, bool all>() -> SweepOf<Real> {
+      []<bool friction, bool rotation, bool restitution, bool all>() -> SweepOf<D, Real> {
         constexpr auto what = all ? Measured::all : Measured::squares;
-        return sweep<Effects{friction, rotation, restitution}, Real, what>;
+        return sweep<Effects{friction, rotation, restitution}, D, Real, what>;
       },
       e.friction, e.rotation, e.restitution, measured == Measured::all);
 }
-// Highway cannot dispatch templates.
-SweepOf<double> double_sweep_for(Effects e, Measured measured)
+template <int D>
+void apply_for(std::span<const ContactBlock<D>> blocks, Motion<D>* motion, Effects e)
 {
-  return sweep_for<double>(e, measured);
+  with_effects(e, [&]<Effects with>() { apply<with, D>(blocks, motion); });
 }
-SweepOf<float> single_sweep_for(Effects e, Measured measured)
+// Dispatch accepts no templates.
+SweepOf<2, double> discs_doubles(Effects e, Measured m)
 {
-  return sweep_for<float>(e, measured);
+  return sweep_for<2, double>(e, m);
 }
-
-void apply_for(std::span<const ContactBlock> blocks, Motion* motion, Effects e)
+SweepOf<2, float> discs_singles(Effects e, Measured m)
 {
-  with_effects(e, [&]<Effects with>() { apply<with>(blocks, motion); });
+  return sweep_for<2, float>(e, m);
+}
+SweepOf<3, double> spheres_doubles(Effects e, Measured m)
+{
+  return sweep_for<3, double>(e, m);
+}
+SweepOf<3, float> spheres_singles(Effects e, Measured m)
+{
+  return sweep_for<3, float>(e, m);
+}
+void apply_to_discs(std::span<const ContactBlock<2>> blocks, Motion<2>* motion, Effects e)
+{
+  apply_for<2>(blocks, motion, e);
+}
+void apply_to_spheres(std::span<const ContactBlock<3>> blocks, Motion<3>* motion, Effects e)
+{
+  apply_for<3>(blocks, motion, e);
 }
 
 std::int64_t target()
@@ -150,9 +166,12 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(double_sweep_for);
-HWY_EXPORT(single_sweep_for);
-HWY_EXPORT(apply_for);
+HWY_EXPORT(discs_doubles);
+HWY_EXPORT(discs_singles);
+HWY_EXPORT(spheres_doubles);
+HWY_EXPORT(spheres_singles);
+HWY_EXPORT(apply_to_discs);
+HWY_EXPORT(apply_to_spheres);
 HWY_EXPORT(target);
 
 /// Highway's name of an instruction set in lower case; "avx512" for its AVX3.
@@ -166,32 +185,50 @@ std::string name_of(std::int64_t target)
 
 }  // namespace
 
-template <>
-SweepOf<double> choose_sweep<double>(Effects effects, Measured measured)
+template <int D, class Real>
+SweepOf<D, Real> choose_sweep(Effects effects, Measured measured)
 {
-  return HWY_DYNAMIC_DISPATCH(double_sweep_for)(effects, measured);
-}
-template <>
-SweepOf<float> choose_sweep<float>(Effects effects, Measured measured)
-{
-  return HWY_DYNAMIC_DISPATCH(single_sweep_for)(effects, measured);
-}
-
-void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects)
-{
-  HWY_DYNAMIC_DISPATCH(apply_for)(blocks, motion, effects);
+  constexpr bool doubles = std::is_same_v<Real, double>;
+  if constexpr (D == 2 && doubles)
+    return HWY_DYNAMIC_DISPATCH(discs_doubles)(effects, measured);
+  else if constexpr (D == 2)
+    return HWY_DYNAMIC_DISPATCH(discs_singles)(effects, measured);
+  else if constexpr (doubles)
+    return HWY_DYNAMIC_DISPATCH(spheres_doubles)(effects, measured);
+  else
+    return HWY_DYNAMIC_DISPATCH(spheres_singles)(effects, measured);
 }
 
-Relax choose_relax(Effects e)
+template <int D>
+void apply_impulses(std::span<const ContactBlock<D>> blocks, Motion<D>* motion, Effects effects)
 {
-  // Compiled for the instruction set that every processor has: for others, g++ 12 would fuse
-  // products and sums of scalars.
+  if constexpr (D == 2)
+    HWY_DYNAMIC_DISPATCH(apply_to_discs)(blocks, motion, effects);
+  else
+    HWY_DYNAMIC_DISPATCH(apply_to_spheres)(blocks, motion, effects);
+}
+
+template <int D>
+Relax<D> choose_relax(Effects e)
+{
+  // Compiled for the instruction set that every processor has: with other sets g++ 12 fuses
+  // products and sums of single numbers.
   return with_flags(
-      []<bool friction, bool rotation>() -> Relax {
-        return HWY_NAMESPACE::relax<Effects{friction, rotation, true}, Contact, Motion, double>;
+      []<bool friction, bool rotation>() -> Relax<D> {
+        return HWY_NAMESPACE::relax<Effects{friction, rotation, true}, Contact<D>, Motion<D>,
+                                    double>;
       },
       e.friction, e.rotation);
 }
+
+template SweepOf<2, double> choose_sweep(Effects, Measured);
+template SweepOf<2, float> choose_sweep(Effects, Measured);
+template SweepOf<3, double> choose_sweep(Effects, Measured);
+template SweepOf<3, float> choose_sweep(Effects, Measured);
+template void apply_impulses<2>(std::span<const ContactBlock<2>>, Motion<2>*, Effects);
+template void apply_impulses<3>(std::span<const ContactBlock<3>>, Motion<3>*, Effects);
+template Relax<2> choose_relax<2>(Effects);
+template Relax<3> choose_relax<3>(Effects);
 
 std::vector<std::string> instruction_sets()
 {

@@ -24,13 +24,14 @@ struct SweepResult {
 enum class Measured { squares, all };
 
 /// Function that relaxes all contacts once, block after block. Real is double or float.
-template <class Real>
-using SweepOf = SweepResult (*)(const RunsOf<Real>&, MotionOf<Real>*, Real friction);
-template <class Real = double>
-SweepOf<Real> choose_sweep(Effects effects, Measured measured = Measured::all);
+template <int D, class Real>
+using SweepOf = SweepResult (*)(const RunsOf<D, Real>&, MotionOf<D, Real>*, Real friction);
+template <int D, class Real = double>
+SweepOf<D, Real> choose_sweep(Effects effects, Measured measured = Measured::all);
 
 /// Applies the impulses of the blocks to the bodies.
-void apply_impulses(std::span<const ContactBlock> blocks, Motion* motion, Effects effects);
+template <int D>
+void apply_impulses(std::span<const ContactBlock<D>> blocks, Motion<D>* motion, Effects effects);
 
 /// Instruction sets, out of avx512, avx2, sse4, sse2, neon and scalar, for which this build has
 /// code and which this machine can execute; best first.

@@ -9,13 +9,16 @@
 
 namespace grseg {
 
-/// Energies of the mobile grains, J (per metre of depth): sums of m v^2/2; of I omega^2/2 with I =
-/// m r^2/2; and of -m g . x, which is zero at the origin.
-double translational_energy(const Simulation& simulation);
-double rotational_energy(const Simulation& simulation);
-double potential_energy(const Simulation& simulation);
+/// Energies of the mobile grains, J (of discs per metre of depth): sums of m v^2/2; of I omega^2/2,
+/// I = inertia_factor m r^2; and of -m g . x, which is zero at the origin.
+template <int D>
+double translational_energy(const Simulation<D>& simulation);
+template <int D>
+double rotational_energy(const Simulation<D>& simulation);
+template <int D>
+double potential_energy(const Simulation<D>& simulation);
 
-/// Balance of the kinetic energy KE (J per metre of depth) over a step. The mid-point scheme obeys
+/// Balance of the kinetic energy KE (J) over a step. The mid-point scheme obeys
 /// KE' - KE = sum m g h . (v + v')/2 + sum p . (u + u')/2 to round-off, with p the impulse of a
 /// contact and u the relative velocity of the two surfaces at the contact; a prime means after the
 /// step (theta = 1/2; Acary & Brogliato 2008, section 10.1). Negative work of contacts is
@@ -29,7 +32,9 @@ struct EnergyBalance {
 };
 
 /// `before` is the motion of each grain at the beginning of the step in `frame`.
-EnergyBalance energy_balance(const Grains& grains, const Frame<2>& frame,
-                             std::span<const Motion> before, const Vec2& gravity, double step);
+template <int D>
+EnergyBalance energy_balance(const Grains& grains, const Frame<D>& frame,
+                             std::span<const Motion<D>> before, const Vector<D>& gravity,
+                             double step);
 
 }  // namespace grseg

@@ -15,30 +15,31 @@ namespace grseg {
 
 // Pointers are copied into the lambdas; otherwise the compiler reads them again for every grain.
 
-void move_bodies(double duration, GrainState& grains, int threads)
+template <int D>
+void move_bodies(double duration, GrainState<D>& grains, int threads)
 {
   auto* position = grains.position.data();
   const auto* motion = grains.motion.data();
   for_ranges(threads, grains.size(), [=](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b)
-      position[b] += duration * Vec2(motion[b].vx, motion[b].vy);
+    for (std::size_t b = begin; b < end; ++b) position[b] += displacement<D>(duration, motion[b]);
   });
 }
 
-double move_bodies(double duration, double onward, GrainState& grains, std::vector<Vec2>& ahead,
-                   int threads)
+template <int D>
+double move_bodies(double duration, double onward, GrainState<D>& grains,
+                   std::vector<Position<D>>& ahead, int threads)
 {
   ahead.resize(grains.position.size());
-  using Velocities = Eigen::AlignedBox2d;  // m/s
+  using Velocities = Eigen::AlignedBox<double, Position<D>::RowsAtCompileTime>;  // m/s
   std::vector<Velocities> found(range_count(grains.position.size()));
   auto *position = grains.position.data(), *then = ahead.data();
   const auto* motion = grains.motion.data();
   for_ranges(threads, grains.position.size(), [=, &found](std::size_t begin, std::size_t end) {
-    Velocities here(Vec2(0, 0));  // velocity of the immobile body
+    Velocities here(Position<D>::Zero().eval());  // velocity of the immobile body
     for (std::size_t b = begin; b < end; ++b) {
-      const Vec2 velocity(motion[b].vx, motion[b].vy);
+      const Position<D> velocity = displacement<D>(1, motion[b]);
       here.extend(velocity);
-      const Vec2 moved = position[b] + duration * velocity;
+      const Position<D> moved = position[b] + duration * velocity;
       position[b] = moved;
       then[b] = moved + onward * velocity;
     }
@@ -49,42 +50,49 @@ double move_bodies(double duration, double onward, GrainState& grains, std::vect
   return all.diagonal().norm();
 }
 
-void forecast_positions(double onward, const GrainState& grains, std::vector<Vec2>& ahead,
+template <int D>
+void forecast_positions(double onward, const GrainState<D>& grains, std::vector<Position<D>>& ahead,
                         int threads)
 {
   ahead.resize(grains.position.size());
   for_ranges(threads, grains.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
-      ahead[b] = grains.position[b] + onward * Vec2(grains.motion[b].vx, grains.motion[b].vy);
+      ahead[b] = grains.position[b] + displacement<D>(onward, grains.motion[b]);
   });
 }
 
-void accelerate(const Vec2& change, GrainState& grains, int threads)
+template <int D>
+void accelerate(const Vector<D>& change, GrainState<D>& grains, int threads)
 {
-  if (change == Vec2::Zero()) return;
+  if (change == Vector<D>::Zero()) return;
   auto* motion = grains.motion.data();
-  const double x = change.x(), y = change.y();
   for_ranges(threads, grains.size(), [=](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       if (!(motion[b].inverse_mass > 0)) continue;
-      motion[b].vx += x;
-      motion[b].vy += y;
+      for (std::size_t k = 0; k < D; ++k) motion[b].v[k] += change[static_cast<Eigen::Index>(k)];
     }
   });
 }
 
-void wrap_positions(double length, GrainState& grains, int threads)
+template <int D>
+void wrap_positions(const Box& box, GrainState<D>& grains, int threads)
 {
   std::atomic<bool> too_far = false;
+  const auto wrap = [&](double length, double& x, std::int32_t& image) {
+    const double periods = std::floor(x / length);
+    if (std::abs(image + periods) > most_periods) {
+      too_far = true;
+      return;
+    }
+    x -= periods * length;
+    image += static_cast<std::int32_t>(periods);
+  };
   for_ranges(threads, grains.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const double periods = std::floor(grains.position[b].x() / length);
-      if (std::abs(grains.image[b] + periods) > most_periods) {
-        too_far = true;
-        continue;
-      }
-      grains.position[b].x() -= periods * length;
-      grains.image[b] += static_cast<std::int32_t>(periods);
+      auto& x = grains.position[b];
+      auto& image = grains.image[b];
+      if (box.periodic_x) wrap(box.length_x, x[0], image[0]);
+      if (D == 3 && box.periodic_z) wrap(box.length_z, x[D - 1], image[D - 2]);
     }
   });
   if (too_far)
@@ -94,26 +102,46 @@ void wrap_positions(double length, GrainState& grains, int threads)
         most_periods));
 }
 
-void drive_boundaries(const World& world, double time, std::span<const std::uint32_t> body_of,
-                      GrainState& grains)
+template <int D>
+void drive_boundaries(const World<D>& world, double time, std::span<const std::uint32_t> body_of,
+                      GrainState<D>& grains)
 {
   for (const auto& body : world.bodies)
     for (auto row = body.begin; row < body.end; ++row) {
       auto& motion = grains.motion[body_of[row]];
-      const auto velocity = chord_velocity(body, grains.position[body_of[row]], time, world.step);
-      motion.vx = velocity.x();
-      if (!body.free()) motion.vy = velocity.y();
-      motion.rim_speed = time + world.step > 0 ? body.spin * world.grains.radius[row] : 0;
+      const Vec2 position = grains.position[body_of[row]].template head<2>();
+      const auto velocity = chord_velocity(body, position, time, world.step);
+      motion.v[0] = velocity.x();
+      if (!body.free()) motion.v[1] = velocity.y();
+      motion.rim.back() = time + world.step > 0 ? body.spin * world.grains.radius[row] : 0;
     }
 }
 
-void apply_loads(const World& world, double duration, std::span<const std::uint32_t> body_of,
-                 GrainState& grains)
+template <int D>
+void apply_loads(const World<D>& world, double duration, std::span<const std::uint32_t> body_of,
+                 GrainState<D>& grains)
 {
   for (const auto& body : world.bodies)
     if (body.free())
       for (auto row = body.begin; row < body.end; ++row)
-        grains.motion[body_of[row]].vy += duration * body.load / body.mass;
+        grains.motion[body_of[row]].v[1] += duration * body.load / body.mass;
 }
+
+template void move_bodies(double, GrainState<2>&, int);
+template double move_bodies(double, double, GrainState<2>&, std::vector<Position<2>>&, int);
+template void forecast_positions(double, const GrainState<2>&, std::vector<Position<2>>&, int);
+template void accelerate<2>(const Vector<2>&, GrainState<2>&, int);
+template void wrap_positions(const Box&, GrainState<2>&, int);
+template void drive_boundaries(const World<2>&, double, std::span<const std::uint32_t>,
+                               GrainState<2>&);
+template void apply_loads(const World<2>&, double, std::span<const std::uint32_t>, GrainState<2>&);
+template void move_bodies(double, GrainState<3>&, int);
+template double move_bodies(double, double, GrainState<3>&, std::vector<Position<3>>&, int);
+template void forecast_positions(double, const GrainState<3>&, std::vector<Position<3>>&, int);
+template void accelerate<3>(const Vector<3>&, GrainState<3>&, int);
+template void wrap_positions(const Box&, GrainState<3>&, int);
+template void drive_boundaries(const World<3>&, double, std::span<const std::uint32_t>,
+                               GrainState<3>&);
+template void apply_loads(const World<3>&, double, std::span<const std::uint32_t>, GrainState<3>&);
 
 }  // namespace grseg

@@ -41,7 +41,8 @@ double smallest_diameter(const Grains& grains)
   return 2 * *std::min_element(grains.radius.begin(), grains.radius.end());
 }
 
-World with_defaults(World world)
+template <int D>
+World<D> with_defaults(World<D> world)
 {
   const double smallest = smallest_diameter(world.grains);
   world.law.margin = std::max(world.law.margin, least_margin * smallest);
@@ -50,14 +51,16 @@ World with_defaults(World world)
   return world;
 }
 
-World with_skin(World world, double skin)
+template <int D>
+World<D> with_skin(World<D> world, double skin)
 {
   world.skin = skin;
   return world;
 }
 
 /// Effects to compute: all whose coefficient is not 0.
-Effects effects_of(const World& world)
+template <int D>
+Effects effects_of(const World<D>& world)
 {
   return {.friction = world.general || world.material.friction > 0,
           .rotation = world.rotation,
@@ -89,10 +92,11 @@ void add_part(const StepReport& part, StepReport& all)
 constexpr double most_growth_of_loads = 2;
 constexpr double approach_of_impact = 4;
 
-void scale(double factor, Pairs::Memory& memory)
+template <int D>
+void scale(double factor, PairMemory<D>& memory)
 {
   memory.n *= factor;
-  memory.t *= factor;
+  for (auto& t : memory.t) t *= factor;
 }
 
 /// First guess that is lowered: its entry in Pairs, and the factor (below 1) to multiply it by.
@@ -102,17 +106,18 @@ struct LoweredGuess {
 };
 
 /// Calls use(block, origin) for each block of contacts.
-template <class Use>
-void for_blocks(std::span<const StripContacts> contacts, const Use& use)
+template <int D, class Use>
+void for_blocks(std::span<const StripContacts<D>> contacts, const Use& use)
 {
   for (const auto& strip : contacts)
     for (std::size_t b = 0; b < strip.size; ++b) use(strip.blocks[b], strip.origins[b]);
 }
 
-double sum_of_impulses(std::span<const StripContacts> contacts)
+template <int D>
+double sum_of_impulses(std::span<const StripContacts<D>> contacts)
 {
   double sum = 0;
-  for_blocks(contacts, [&](const ContactBlock& block, const BlockOrigin&) {
+  for_blocks<D>(contacts, [&](const ContactBlock<D>& block, const BlockOrigin<D>&) {
     for (const double impulse : block.impulse_n) sum += impulse;
   });
   return sum;
@@ -120,12 +125,13 @@ double sum_of_impulses(std::span<const StripContacts> contacts)
 
 /// First guesses that an impact requires to be lowered. `guesses`: first guesses of this step, kg
 /// m/s; `fall`: g h, m/s.
-std::vector<LoweredGuess> impacts_of(std::span<const StripContacts> contacts,
+template <int D>
+std::vector<LoweredGuess> impacts_of(std::span<const StripContacts<D>> contacts,
                                      std::span<const double> guesses, double fall)
 {
   std::vector<LoweredGuess> impacts;
   auto guess = guesses.begin();
-  for_blocks(contacts, [&](const ContactBlock& block, const BlockOrigin& origin) {
+  for_blocks<D>(contacts, [&](const ContactBlock<D>& block, const BlockOrigin<D>& origin) {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
       const double before = *guess++ + block.mass_n[lane] * fall;
       if (block.impulse_n[lane] > most_growth_of_loads * before)
@@ -143,7 +149,8 @@ constexpr std::size_t worth_sharing = 30000;
 
 }  // namespace
 
-Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
+template <int D>
+Simulation<D>::Simulation(const World<D>& world, const std::vector<Vector<D>>& position)
     : world_(with_defaults(world)),
       gravity_(world.gravity),
       effects_(effects_of(world)),
@@ -151,7 +158,7 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
       pairs_(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world_.skin,
              world_.law.margin, threads_),
-      state_(make_state(world.grains, position)),
+      state_(make_state<D>(world.grains, position)),
       body_of_(position.size()),
       most_approach_(smallest_diameter(world.grains) / 2),
       mobile_mass_(mobile_mass(world.grains))
@@ -159,18 +166,21 @@ Simulation::Simulation(const World& world, const std::vector<Vec2>& position)
   std::iota(body_of_.begin(), body_of_.end(), 0);
 }
 
-Simulation::Simulation(const World& world, const State& state)
+template <int D>
+Simulation<D>::Simulation(const World<D>& world, const State& state)
     : Simulation(with_skin(world, state.pairs.skin), state.position)
 {
   for (std::size_t b = 0; b < state.row.size(); ++b) {
     const auto g = static_cast<std::size_t>(state.row[b]);
     state_.row[b] = state.row[b];
-    state_.position[b] = state.position[g];
+    state_.position[b].template head<D>() = state.position[g];
+    if constexpr (D == 3) state_.position[b][3] = world_.grains.radius[g];
     state_.image[b] = state.image[g];
     state_.radius[b] = world_.grains.radius[g];
-    const double inverse_mass = world_.grains.fixed[g] ? 0 : 1 / world_.grains.mass[g];
-    state_.motion[b] = {state.velocity[g].x(), state.velocity[g].y(), state.rim_speed[g],
-                        inverse_mass};
+    state_.motion[b].inverse_mass = world_.grains.fixed[g] ? 0 : 1 / world_.grains.mass[g];
+    state_.motion[b].rim = state.rim[g];
+    for (std::size_t k = 0; k < D; ++k)
+      state_.motion[b].v[k] = state.velocity[g][static_cast<Eigen::Index>(k)];
     body_of_[g] = static_cast<std::uint32_t>(b);
   }
   pairs_.restore(state_, state.pairs);
@@ -178,15 +188,16 @@ Simulation::Simulation(const World& world, const State& state)
   steps_done_ = state.steps_done;
 }
 
-Simulation::State Simulation::state() const
+template <int D>
+auto Simulation<D>::state() const -> State
 {
   State state;
   for (std::size_t g = 0; g < body_of_.size(); ++g) {
     const auto b = body_of_[g];
-    state.position.push_back(state_.position[b]);
+    state.position.push_back(point<D>(state_.position[b]));
     state.image.push_back(state_.image[b]);
     state.velocity.push_back(velocity(g));
-    state.rim_speed.push_back(state_.motion[b].rim_speed);
+    state.rim.push_back(state_.motion[b].rim);
   }
   state.row = state_.row;
   state.pairs = pairs_.state();
@@ -194,7 +205,8 @@ Simulation::State Simulation::state() const
   return state;
 }
 
-StepReport Simulation::step(Frame<2>* frame)
+template <int D>
+StepReport Simulation<D>::step(Frame<D>* frame)
 {
   const double h = world_.step;
   StepReport report;
@@ -205,7 +217,8 @@ StepReport Simulation::step(Frame<2>* frame)
   return report;
 }
 
-void Simulation::take(const Part& part, Frame<2>* frame, StepReport& report)
+template <int D>
+void Simulation<D>::take(const Part& part, Frame<D>* frame, StepReport& report)
 {
   const double length = world_.step;
   StepReport own;
@@ -222,7 +235,8 @@ void Simulation::take(const Part& part, Frame<2>* frame, StepReport& report)
   lengthen_impulses(2);
 }
 
-bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& report)
+template <int D>
+bool Simulation<D>::try_to_take(const Part& part, Frame<D>* frame, StepReport& report)
 {
   const double h = world_.step, whole = std::ldexp(h, part.halvings);
   const auto at = [&](double steps) { return (static_cast<double>(steps_done_) + steps) * whole; };
@@ -244,7 +258,7 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
   }
   if (report.farthest_approach == infinity) stop_at_coincidence(begin);
   forget_impulses(renewed);
-  accelerate(h * world_.gravity, state_, threads_);
+  accelerate<D>(h * world_.gravity, state_, threads_);
   apply_loads(world_, h, body_of_, state_);
   solve(report);
   keep_impulses(report);
@@ -253,7 +267,8 @@ bool Simulation::try_to_take(const Part& part, Frame<2>* frame, StepReport& repo
   return true;
 }
 
-void Simulation::take_back(bool renewed)
+template <int D>
+void Simulation<D>::take_back(bool renewed)
 {
   move_bodies(-world_.step / 2, state_, threads_);
   forget_search(contacts_);
@@ -262,18 +277,20 @@ void Simulation::take_back(bool renewed)
   restored_ = true;  // contacts_ of the previous step refer to an old list
 }
 
-WedgedGrains Simulation::wedged_grains(bool any)
+template <int D>
+WedgedGrains<D> Simulation<D>::wedged_grains(bool any)
 {
-  std::vector<std::span<ContactBlock>> on_base;
+  std::vector<std::span<ContactBlock<D>>> on_base;
   if (any)
     for (auto& strip : contacts_)
       on_base.push_back(std::span(strip.blocks).subspan(strip.on_base, strip.size - strip.on_base));
   return {on_base, state_.motion, world_.material.friction};
 }
 
-void Simulation::solve(StepReport& report)
+template <int D>
+void Simulation<D>::solve(StepReport& report)
 {
-  std::vector<BlockRuns> strips;
+  std::vector<BlockRuns<D>> strips;
   std::size_t count = 0;
   for (std::size_t s = 0; s < contacts_.size(); ++s) {
     strips.push_back(contacts_[s].used(pairs_.bodies_of_strip(s)));
@@ -281,30 +298,32 @@ void Simulation::solve(StepReport& report)
   }
   guesses_.clear();
   if (found_.fastest_approach > approach_of_impact * impulse_of_fall() / mobile_mass_)
-    for_blocks(contacts_, [&](const ContactBlock& block, const BlockOrigin&) {
+    for_blocks<D>(contacts_, [&](const ContactBlock<D>& block, const BlockOrigin<D>&) {
       guesses_.insert(guesses_.end(), block.impulse_n.begin(), block.impulse_n.end());
     });
   const bool any_free = std::any_of(world_.bodies.begin(), world_.bodies.end(),
                                     [](const auto& body) { return body.free(); });
-  std::optional<FreeBodies> free;
+  std::optional<FreeBodies<D>> free;
   if (any_free) free.emplace(world_.bodies, body_of_, strips, state_.motion);
   // A plate that moves freely transmits its load by squeezing: no grains are treated as wedged.
   auto wedged = wedged_grains(!any_free && effects_.friction);
-  const SolvedApart apart{free ? &*free : nullptr, wedged.empty() ? nullptr : &wedged};
-  report.solver = solve_contacts(strips, state_.motion,
-                                 {count, world_.material.friction, effects_, world_.solver,
-                                  reference_range(count), threads_, apart},
-                                 solver_memory_);
+  const SolvedApart<D> apart{free ? &*free : nullptr, wedged.empty() ? nullptr : &wedged};
+  report.solver = solve_contacts<D>(strips, state_.motion,
+                                    {count, world_.material.friction, effects_, world_.solver,
+                                     reference_range(count), threads_, apart},
+                                    solver_memory_);
 }
 
-double Simulation::impulse_of_fall() const
+template <int D>
+double Simulation<D>::impulse_of_fall() const
 {
   double force = world_.gravity.norm() * mobile_mass_;
   for (const auto& body : world_.bodies) force = std::max(force, std::abs(body.load));
   return force * world_.step;
 }
 
-ReferenceRange Simulation::reference_range(std::size_t contacts) const
+template <int D>
+ReferenceRange Simulation<D>::reference_range(std::size_t contacts) const
 {
   const double fall = impulse_of_fall() / mobile_mass_;
   const auto count = static_cast<double>(contacts);
@@ -317,9 +336,10 @@ ReferenceRange Simulation::reference_range(std::size_t contacts) const
   return {least, most};
 }
 
-void Simulation::renew_pairs(double onward)
+template <int D>
+void Simulation<D>::renew_pairs(double onward)
 {
-  if (world_.box.periodic_x) wrap_positions(world_.box.length_x, state_, threads_);
+  if (world_.box.periodic_x || world_.box.periodic_z) wrap_positions(world_.box, state_, threads_);
   forecast_positions(onward, state_, ahead_, threads_);
   pairs_.renew(state_, ahead_);  // sorts the bodies
   forecast_positions(onward, state_, ahead_, threads_);
@@ -329,7 +349,8 @@ void Simulation::renew_pairs(double onward)
   });
 }
 
-bool Simulation::find_contacts(double spread, StepReport& report)
+template <int D>
+bool Simulation<D>::find_contacts(double spread, StepReport& report)
 {
   const bool renew = !pairs_.complete(ahead_);
   double unlisted = 0;
@@ -337,7 +358,7 @@ bool Simulation::find_contacts(double spread, StepReport& report)
     unlisted = pairs_.fastest_unlisted(state_.motion);
     renew_pairs(world_.law.forecast * world_.step);
   }
-  DetectionRule rule;
+  DetectionRule<D> rule;
   rule.ahead = ahead_;
   rule.middle = state_.position;
   rule.motion = state_.motion;
@@ -346,7 +367,7 @@ bool Simulation::find_contacts(double spread, StepReport& report)
   rule.effects = effects_;
   rule.restitution = world_.material.restitution;
   rule.horizon = world_.law.horizon * world_.step;
-  rule.periodic = world_.general || world_.box.periodic_x;
+  rule.periodic = world_.general || world_.box.periodic_x || world_.box.periodic_z;
   found_ = grseg::find_contacts(pairs_.pairs(), rule, contacts_, threads_);
   const auto& sums = found_;
   report.touching = sums.touching;
@@ -357,16 +378,18 @@ bool Simulation::find_contacts(double spread, StepReport& report)
   return renew;
 }
 
-void Simulation::forget_impulses(bool renewed)
+template <int D>
+void Simulation<D>::forget_impulses(bool renewed)
 {
   if (renewed || restored_)
     pairs_.forget();
   else
-    grseg::forget_impulses(pairs_.pairs(), contacts_, pairs_.memories(), threads_);
+    grseg::forget_impulses<D>(pairs_.pairs(), contacts_, pairs_.memories(), threads_);
   restored_ = false;
 }
 
-double Simulation::unlisted_ahead(double spread)
+template <int D>
+double Simulation<D>::unlisted_ahead(double spread)
 {
   const double half = world_.step / 2;
   // The limit also covers listed pairs that do not act yet.
@@ -376,14 +399,17 @@ double Simulation::unlisted_ahead(double spread)
   return pairs_.complete(ahead_at_end_, farthest) ? 0 : pairs_.fastest_unlisted(state_.motion);
 }
 
-void Simulation::stop_at_coincidence(double time) const
+template <int D>
+void Simulation<D>::stop_at_coincidence(double time) const
 {
   const auto& id = world_.grains.id;
   const auto& pairs = pairs_.pairs();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const std::size_t i = pairs.i[k] / 2, j = pairs.j[k] / 2;
+    const std::size_t i = pairs.i[k] / position_doubles<D>, j = pairs.j[k] / position_doubles<D>;
     if (j >= state_.size()) continue;
-    const Vec2 apart = state_.position[i] - state_.position[j] + Vec2(pairs.geometry[k].shift, 0);
+    Vector<D> apart = point<D>(state_.position[i]) - point<D>(state_.position[j]);
+    apart.x() += pairs.geometry[k].shift;
+    if constexpr (D == 3) apart.z() += pairs.geometry[k].shift_z;
     if (apart.norm() > 0) continue;
     const auto [first, second] = std::minmax(state_.row[i], state_.row[j]);
     throw RunError(fmt::format(
@@ -394,47 +420,58 @@ void Simulation::stop_at_coincidence(double time) const
   throw std::logic_error("no pair of centres coincides");
 }
 
-void Simulation::keep_impulses(StepReport& report)
+template <int D>
+void Simulation<D>::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses(contacts_, pairs_.memories(), threads_);
+  const auto sums = grseg::keep_impulses<D>(contacts_, pairs_.memories(), threads_);
   lower_guesses();
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
-  report.base_impulse = sums.on_base_side;
+  report.base_impulse.head<D>() = sums.on_base_side;
 }
 
-void Simulation::lower_guesses()
+template <int D>
+void Simulation<D>::lower_guesses()
 {
   if (guesses_.empty() ||
-      !(sum_of_impulses(contacts_) > most_growth_of_loads * (found_.load + impulse_of_fall())))
+      !(sum_of_impulses<D>(contacts_) > most_growth_of_loads * (found_.load + impulse_of_fall())))
     return;
   for (const auto& [pair, factor] :
-       impacts_of(contacts_, guesses_, impulse_of_fall() / mobile_mass_))
+       impacts_of<D>(contacts_, guesses_, impulse_of_fall() / mobile_mass_))
     scale(factor, pairs_.memories()[pair]);
 }
 
-Vec2 Simulation::position(std::size_t g) const
+template <int D>
+Vector<D> Simulation<D>::position(std::size_t g) const
 {
   const auto body = body_of_[g];
-  return state_.position[body] + Vec2(state_.image[body] * world_.box.length_x, 0);
+  Vector<D> position = point<D>(state_.position[body]);
+  position.x() += state_.image[body][0] * world_.box.length_x;
+  if constexpr (D == 3) position.z() += state_.image[body][1] * world_.box.length_z;
+  return position;
 }
 
-void Simulation::drive(const std::vector<BoundaryBody>& bodies)
+template <int D>
+void Simulation<D>::drive(const std::vector<BoundaryBody>& bodies)
 {
   world_.bodies = bodies;
   auto stands = world_.grains.fixed;
   for (const auto& body : bodies)
     std::fill(stands.begin() + body.begin, stands.begin() + body.end, std::uint8_t{0});
   for (std::size_t g = 0; g < stands.size(); ++g)
-    if (stands[g] != 0) set_velocity(g, Vec2::Zero());
+    if (stands[g] != 0) set_velocity(g, Vector<D>::Zero());
 }
 
-void Simulation::set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity)
+template <int D>
+void Simulation<D>::set_velocity(std::size_t g, const Vector<D>& velocity,
+                                 const Spin<D>& angular_velocity)
 {
   auto& motion = state_.motion[body_of_[g]];
-  motion.vx = velocity.x();
-  motion.vy = velocity.y();
-  motion.rim_speed = angular_velocity * world_.grains.radius[g];
+  for (std::size_t k = 0; k < D; ++k) motion.v[k] = velocity[static_cast<Eigen::Index>(k)];
+  motion.rim = components_of<D>(angular_velocity * world_.grains.radius[g]);
 }
+
+template class Simulation<2>;
+template class Simulation<3>;
 
 }  // namespace grseg

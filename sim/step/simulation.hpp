@@ -31,10 +31,11 @@ struct StepReport {
   /// m, fastest_approach times the duration of the (part of the) step; infinity: centres coincide.
   double farthest_approach = 0;
   int parts = 1;                     ///< number of parts into which the step was divided
-  Vec2 base_impulse = Vec2::Zero();  ///< kg m/s, of base and walls on mobile grains
+  Vec3 base_impulse = Vec3::Zero();  ///< kg m/s, of base and walls on mobile grains
 };
 
-/// Contact dynamics of rigid discs, Moreau's mid-point scheme (theta = 1/2). A step of length h
+/// Contact dynamics of rigid discs (D = 2) or spheres (D = 3), Moreau's mid-point scheme (theta =
+/// 1/2). A step of length h
 ///
 ///   x  ->  x + h v/2         grains move freely to the middle of the step; contacts get their
 ///                            normals and lever arms there, and their rebounds from v
@@ -47,38 +48,39 @@ struct StepReport {
 /// pass through each other without a contact. Then the step is divided into two halves, and these
 /// into halves again, down to 1/64 of the step. The frame of a divided step describes its last
 /// part.
+template <int D>
 class Simulation {
  public:
   /// All variables on which later steps depend.
   struct State {
-    std::vector<Vec2> position;       // m, wrapped into the cell
-    std::vector<std::int32_t> image;  // number of periods to add to x
-    std::vector<Vec2> velocity;       // m/s, per row of Grains
-    std::vector<double> rim_speed;    // m/s, radius times angular velocity
-    std::vector<std::int32_t> row;    // row of each grain, in the order of memory
-    PairList::State pairs;
+    std::vector<Vector<D>> position;      // m, wrapped into the cell, per row of Grains
+    std::vector<Periods<D>> image;        // number of periods to add to x and z
+    std::vector<Vector<D>> velocity;      // m/s
+    std::vector<Turning<D, double>> rim;  // m/s, radius times angular velocity
+    std::vector<std::int32_t> row;        // row of each grain, in the order of memory
+    typename PairList<D>::State pairs;
     std::int64_t steps_done = 0;
   };
 
   /// Grains start at `position` at rest.
-  Simulation(const World& world, const std::vector<Vec2>& position);
+  Simulation(const World<D>& world, const std::vector<Vector<D>>& position);
   /// Continues from `state`, with its skin. With the same world, later steps are bitwise identical
   /// to an uninterrupted run. Throws FormatError as PairList::restore() does.
-  Simulation(const World& world, const State& state);
+  Simulation(const World<D>& world, const State& state);
 
   StepReport advance() { return step(nullptr); }
   /// Computes a step and writes it as a frame of a trajectory (formats/README.md), in the order of
   /// Grains: positions and contacts at mid-step, velocities at the end, mean forces over the step.
-  StepReport advance(Frame<2>& frame) { return step(&frame); }
+  StepReport advance(Frame<D>& frame) { return step(&frame); }
 
   State state() const;
 
-  const World& world() const { return world_; }
+  const World<D>& world() const { return world_; }
   std::int64_t steps_done() const { return steps_done_; }
   double time() const { return static_cast<double>(steps_done_) * world_.step; }  // s
 
   /// Sets gravity, whose direction may change with time.
-  void tilt(const Gravity<2>& gravity)
+  void tilt(const Gravity<D>& gravity)
   {
     gravity_ = gravity;
     world_.gravity = gravity.at(time());
@@ -89,18 +91,19 @@ class Simulation {
   void set_clock(std::int64_t steps) { steps_done_ = steps; }
 
   /// In these functions g is a row of Grains. Positions are unwrapped: periods are added.
-  Vec2 position(std::size_t g) const;
-  const Motion& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
-  Vec2 velocity(std::size_t g) const { return {motion(g).vx, motion(g).vy}; }
-  double angular_velocity(std::size_t g) const
+  Vector<D> position(std::size_t g) const;
+  const Motion<D>& motion(std::size_t g) const { return state_.motion[body_of_[g]]; }
+  Vector<D> velocity(std::size_t g) const { return vector_of(motion(g).v); }
+  Spin<D> angular_velocity(std::size_t g) const
   {
-    return motion(g).rim_speed / world_.grains.radius[g];
+    return spin_of<D>(motion(g).rim) / world_.grains.radius[g];
   }
-  void set_velocity(std::size_t g, const Vec2& velocity, double angular_velocity = 0);
+  void set_velocity(std::size_t g, const Vector<D>& velocity,
+                    const Spin<D>& angular_velocity = spin_of<D>({}));
 
   /// Last step, or last part of a divided step, that was written to a frame: motion of each grain
   /// at its beginning, and its duration, s.
-  const std::vector<Motion>& before() const { return before_; }
+  const std::vector<Motion<D>>& before() const { return before_; }
   double written_step() const { return written_step_; }
 
   /// Largest approach of a pair in an undivided step, m: half the smallest diameter.
@@ -109,16 +112,16 @@ class Simulation {
   std::size_t pair_list_renewals() const { return pairs_.renewals(); }
 
  private:
-  StepReport step(Frame<2>* frame);
+  StepReport step(Frame<D>* frame);
   /// Part of a step.
   struct Part {
     double begin = 0;  // time since the beginning of the step, in whole steps
     int halvings = 0;  // number of times that the step was halved
   };
-  void take(const Part& part, Frame<2>* frame, StepReport& report);
+  void take(const Part& part, Frame<D>* frame, StepReport& report);
   /// Returns false if the part is too long. Positions are then restored, to round-off, and the pair
   /// list is valid for them.
-  bool try_to_take(const Part& part, Frame<2>* frame, StepReport& report);
+  bool try_to_take(const Part& part, Frame<D>* frame, StepReport& report);
   void take_back(bool renewed);
   /// Returns true if the pair list was renewed. `spread`: result of move_bodies(), m/s.
   bool find_contacts(double spread, StepReport& report);
@@ -130,7 +133,7 @@ class Simulation {
   /// of the step with their present velocities.
   double unlisted_ahead(double spread);
   [[noreturn]] void stop_at_coincidence(double time) const;
-  WedgedGrains wedged_grains(bool any);
+  WedgedGrains<D> wedged_grains(bool any);
   /// After an impact (simulation.cpp), lowers the first guesses of the next step.
   void lower_guesses();
   double impulse_of_fall() const;  // kg m/s, of gravity or a plate's load in one step
@@ -139,26 +142,26 @@ class Simulation {
   void keep_impulses(StepReport& report);
   // Writes a frame (snapshot.cpp). To be called after the solve, while bodies are at their
   // positions at mid-step; `middle` is the time of mid-step, s.
-  void write_frame(double middle, Frame<2>& frame) const;
-  void write_contacts(ContactList<2>& list) const;
+  void write_frame(double middle, Frame<D>& frame) const;
+  void write_contacts(ContactList<D>& list) const;
 
-  World world_;
-  Gravity<2> gravity_;
+  World<D> world_;
+  Gravity<D> gravity_;
   Effects effects_;
   int threads_;
-  PairList pairs_;
-  GrainState state_;
-  std::vector<std::uint32_t> body_of_;  // per row of Grains, index in state_
-  std::vector<Vec2> ahead_;             // m, positions after LawParameters::forecast
-  std::vector<Vec2> ahead_at_end_;      // m, half a step later; computed for fast grains only
-  double most_approach_;                // m, see most_approach()
-  double mobile_mass_;                  // kg, sum over all mobile grains
-  DetectionSums found_;                 // sums over the contacts of this step
-  std::vector<double> guesses_;         // kg m/s, first guesses of p_n; empty: no impact
-  std::vector<Motion> before_;          // per row, see before()
-  double written_step_ = 0;             // s, see written_step()
-  std::vector<StripContacts> contacts_;
-  SolverMemory solver_memory_;
+  PairList<D> pairs_;
+  GrainState<D> state_;
+  std::vector<std::uint32_t> body_of_;     // per row of Grains, index in state_
+  std::vector<Position<D>> ahead_;         // m, positions after LawParameters::forecast
+  std::vector<Position<D>> ahead_at_end_;  // m, half a step later; computed for fast grains only
+  double most_approach_;                   // m, see most_approach()
+  double mobile_mass_;                     // kg, sum over all mobile grains
+  DetectionSums found_;                    // sums over the contacts of this step
+  std::vector<double> guesses_;            // kg m/s, first guesses of p_n; empty: no impact
+  std::vector<Motion<D>> before_;          // per row, see before()
+  double written_step_ = 0;                // s, see written_step()
+  std::vector<StripContacts<D>> contacts_;
+  SolverMemory<D> solver_memory_;
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // true if contacts_ do not belong to the previous step
 };

@@ -21,15 +21,16 @@ inline double mobile_mass(const Grains& grains)
 }
 
 /// Everything that stays the same while a simulation runs.
+template <int D>
 struct World {
   Grains grains;
-  std::vector<Wall> walls;
+  std::vector<Wall<D>> walls;
   std::vector<BoundaryBody> bodies;  // boundary grains that move
   Box box;
   Material material;
   bool rotation = true;
-  Vec2 gravity = Vec2::Zero();  // m/s^2; if the slope changes, value of the last step
-  double step = 0;              // duration h of a step, s
+  Vector<D> gravity = Vector<D>::Zero();  // m/s^2; if the slope changes, value of the last step
+  double step = 0;                        // duration h of a step, s
   SolverSettings solver;
   LawParameters law;
   double skin = 0;  // m, of the pair list, above law.margin; 0: default

@@ -17,9 +17,9 @@ namespace {
 
 /// Impulses and velocities, which depend linearly on each other.
 struct State {
-  std::vector<ContactBlock> blocks;
+  std::vector<ContactBlock<2>> blocks;
   std::vector<std::uint32_t> ends;
-  std::vector<Motion> motion;
+  std::vector<Motion<2>> motion;
 };
 
 State cold_start(double omega)
@@ -35,17 +35,18 @@ State cold_start(double omega)
 
 void sweep(State& s)
 {
-  choose_sweep({})({s.blocks, s.ends}, s.motion.data(), FrozenProblem::friction);
+  choose_sweep<2>({})({s.blocks, s.ends}, s.motion.data(), FrozenProblem::friction);
 }
 
 /// Distance of two sets of velocities: the square root of twice the kinetic energy of their
-/// difference (a disc's I omega^2 is m rim_speed^2 / 2).
-double distance(const std::vector<Motion>& a, const std::vector<Motion>& b)
+/// difference (a disc's I omega^2 is m rim^2 / 2).
+double distance(const std::vector<Motion<2>>& a, const std::vector<Motion<2>>& b)
 {
   double sum = 0;
   for (std::size_t g = 0; g < a.size(); ++g) {
     if (a[g].inverse_mass == 0) continue;
-    const double x = a[g].vx - b[g].vx, y = a[g].vy - b[g].vy, s = a[g].rim_speed - b[g].rim_speed;
+    const double x = a[g].v[0] - b[g].v[0], y = a[g].v[1] - b[g].v[1],
+                 s = a[g].rim[0] - b[g].rim[0];
     sum += (x * x + y * y + s * s / 2) / a[g].inverse_mass;
   }
   return std::sqrt(sum);
@@ -60,13 +61,13 @@ State extrapolate(const State& from, const State& to, double factor)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
       result.blocks[b].impulse_n[lane] =
           extrapolate(from.blocks[b].impulse_n[lane], to.blocks[b].impulse_n[lane]);
-      result.blocks[b].impulse_t[lane] =
-          extrapolate(from.blocks[b].impulse_t[lane], to.blocks[b].impulse_t[lane]);
+      result.blocks[b].impulse_t[0][lane] =
+          extrapolate(from.blocks[b].impulse_t[0][lane], to.blocks[b].impulse_t[0][lane]);
     }
   for (std::size_t g = 0; g < to.motion.size(); ++g) {
-    result.motion[g].vx = extrapolate(from.motion[g].vx, to.motion[g].vx);
-    result.motion[g].vy = extrapolate(from.motion[g].vy, to.motion[g].vy);
-    result.motion[g].rim_speed = extrapolate(from.motion[g].rim_speed, to.motion[g].rim_speed);
+    result.motion[g].v[0] = extrapolate(from.motion[g].v[0], to.motion[g].v[0]);
+    result.motion[g].v[1] = extrapolate(from.motion[g].v[1], to.motion[g].v[1]);
+    result.motion[g].rim[0] = extrapolate(from.motion[g].rim[0], to.motion[g].rim[0]);
   }
   return result;
 }
@@ -82,8 +83,8 @@ bool turned_back(const State& start, const State& now, const State& before)
       if (n.mass_n[lane] == 0) continue;
       product += (s.impulse_n[lane] - n.impulse_n[lane]) * (n.impulse_n[lane] - o.impulse_n[lane]) /
                  n.mass_n[lane];
-      product += (s.impulse_t[lane] - n.impulse_t[lane]) * (n.impulse_t[lane] - o.impulse_t[lane]) /
-                 n.mass_t[lane];
+      product += (s.impulse_t[0][lane] - n.impulse_t[0][lane]) *
+                 (n.impulse_t[0][lane] - o.impulse_t[0][lane]) / n.mass_t[lane];
     }
   return product > 0;
 }

@@ -13,7 +13,7 @@
 namespace grseg {
 namespace {
 
-Simulation bed(int copies)
+Simulation<2> bed(int copies)
 {
   const auto one = flow("standard");
   auto simulation = side_by_side(one, one.world(), copies);
@@ -23,9 +23,9 @@ Simulation bed(int copies)
 
 /// A bed at one instant, with a list of its pairs.
 struct Instant {
-  explicit Instant(const Simulation& simulation)
+  explicit Instant(const Simulation<2>& simulation)
       : world(simulation.world()),
-        state(make_state(world.grains, positions_of(simulation))),
+        state(make_state<2>(world.grains, positions_of(simulation))),
         list(world.walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), world.skin,
              world.law.margin)
@@ -43,7 +43,7 @@ struct Instant {
   }
 
   /// Moves the grains to their positions in `simulation`, from any period.
-  void put(const Simulation& simulation)
+  void put(const Simulation<2>& simulation)
   {
     const double length = world.box.length_x;
     ahead.resize(state.position.size());
@@ -53,13 +53,13 @@ struct Instant {
       auto& position = state.position[b];
       position = simulation.position(g);
       position.x() -= length * std::floor(position.x() / length);
-      state.motion[b].vx = velocity.x();
-      state.motion[b].vy = velocity.y();
+      state.motion[b].v[0] = velocity.x();
+      state.motion[b].v[1] = velocity.y();
       ahead[b] = position + world.law.forecast * world.step * velocity;
     }
   }
 
-  static std::vector<Vec2> positions_of(const Simulation& simulation)
+  static std::vector<Vec2> positions_of(const Simulation<2>& simulation)
   {
     std::vector<Vec2> position;
     for (std::size_t g = 0; g < simulation.world().grains.size(); ++g)
@@ -67,14 +67,14 @@ struct Instant {
     return position;
   }
 
-  World world;
-  GrainState state;
-  PairList list;
+  World<2> world;
+  GrainState<2> state;
+  PairList<2> list;
   std::vector<Vec2> ahead;  // positions at which contacts are searched, m
-  DetectionRule rule;
+  DetectionRule<2> rule;
 };
 
-void report_contacts(benchmark::State& state, const std::vector<StripContacts>& strips)
+void report_contacts(benchmark::State& state, const std::vector<StripContacts<2>>& strips)
 {
   double contacts = 0;
   for (const auto& strip : strips) contacts += static_cast<double>(strip.count);
@@ -84,7 +84,7 @@ void report_contacts(benchmark::State& state, const std::vector<StripContacts>& 
 void find(benchmark::State& state, int copies)
 {
   Instant now(bed(copies));
-  std::vector<StripContacts> strips;
+  std::vector<StripContacts<2>> strips;
   for (auto _ : state) benchmark::DoNotOptimize(find_contacts(now.list.pairs(), now.rule, strips));
   report_contacts(state, strips);
   state.counters["pairs"] = static_cast<double>(now.list.pairs().size());
@@ -124,11 +124,11 @@ void renew(benchmark::State& state, int copies)
 void keep_and_forget(benchmark::State& state, int copies)
 {
   Instant now(bed(copies));
-  std::vector<StripContacts> strips;
+  std::vector<StripContacts<2>> strips;
   for (int step = 0; step < 2; ++step) find_contacts(now.list.pairs(), now.rule, strips);
   for (auto _ : state) {
-    forget_impulses(now.list.pairs(), strips, now.list.memories());
-    benchmark::DoNotOptimize(keep_impulses(strips, now.list.memories()));
+    forget_impulses<2>(now.list.pairs(), strips, now.list.memories());
+    benchmark::DoNotOptimize(keep_impulses<2>(strips, now.list.memories()));
   }
   report_contacts(state, strips);
 }

@@ -21,10 +21,10 @@ namespace {
 
 constexpr int turns = 100, steps_per_turn = 10;
 
-using Change = void (*)(World&);
+using Change = void (*)(World<2>&);
 
 /// The developed chute, without spin, with the conditions changed by `changes`.
-Simulation chute(const std::vector<Change>& changes)
+Simulation<2> chute(const std::vector<Change>& changes)
 {
   const auto one = flow("standard");
   auto world = one.world();
@@ -44,8 +44,8 @@ double processor_time()
 }
 
 struct Run {
-  Simulation simulation;
-  std::function<StepReport(Simulation&)> step = [](Simulation& s) { return s.advance(); };
+  Simulation<2> simulation;
+  std::function<StepReport(Simulation<2>&)> step = [](Simulation<2>& s) { return s.advance(); };
   double seconds = 0, sweeps = 0, contacts = 0;
 
   void take_turn()
@@ -60,10 +60,10 @@ struct Run {
   }
 };
 
-bool in_the_same_state(const Simulation& a, const Simulation& b)
+bool in_the_same_state(const Simulation<2>& a, const Simulation<2>& b)
 {
   const auto s = a.state(), t = b.state();
-  return s.position == t.position && s.velocity == t.velocity && s.rim_speed == t.rim_speed;
+  return s.position == t.position && s.velocity == t.velocity && s.rim == t.rim;
 }
 
 void compare(benchmark::State& state, Run with, Run without)
@@ -91,7 +91,7 @@ void leave_out(benchmark::State& state, const std::vector<Change>& with,
 void frames(benchmark::State& state)
 {
   Frame<2> frame;
-  const auto write_down = [&](Simulation& s) { return s.advance(frame); };
+  const auto write_down = [&](Simulation<2>& s) { return s.advance(frame); };
   compare(state, {chute({}), write_down}, {chute({})});
 }
 
@@ -102,10 +102,10 @@ void frames_in_a_file(benchmark::State& state)
                      ("grseg_effects_bench_" + std::to_string(getpid()) + ".h5"))
                         .string();
   TrajectoryWriter writer(path,
-                          {start.world().grains, start.world().box, {}, Recorder::observables()});
+                          {start.world().grains, start.world().box, {}, Recorder::observables(2)});
   Recorder recorder(writer, 2 * start.world().skin);  // the skin is half a diameter
   Frame<2> frame;
-  const auto record = [&](Simulation& s) {
+  const auto record = [&](Simulation<2>& s) {
     auto report = s.advance(frame);
     recorder.add(report);
     recorder.write(frame, s);
@@ -132,7 +132,8 @@ void whole_scene(benchmark::State& state, const std::string& name, double time)
     still.end = static_cast<std::uint32_t>(fixed.size());
     world.bodies = {still};
   }
-  compare(state, {Simulation(world, start.state())}, {Simulation(start.world(), start.state())});
+  compare(state, {Simulation<2>(world, start.state())},
+          {Simulation<2>(start.world(), start.state())});
   state.counters["grains"] = static_cast<double>(world.grains.size());
   state.SetLabel(effects_left_out(scene_called(name)));
 }
@@ -148,16 +149,16 @@ void add(const char* name, Arguments... arguments)
 void add_all()
 {
   using Changes = std::vector<Change>;
-  const Change general = [](World& w) { w.general = true; };
-  const Change smooth = [](World& w) { w.material.friction = 0; };
-  const Change unturned = [](World& w) { w.rotation = false; };
-  const Change inelastic = [](World& w) { w.material.restitution = 0; };
-  const Change between_walls = [](World& w) {
+  const Change general = [](World<2>& w) { w.general = true; };
+  const Change smooth = [](World<2>& w) { w.material.friction = 0; };
+  const Change unturned = [](World<2>& w) { w.rotation = false; };
+  const Change inelastic = [](World<2>& w) { w.material.restitution = 0; };
+  const Change between_walls = [](World<2>& w) {
     w.walls = {{{0, 0}, {1, 0}}, {{w.box.length_x, 0}, {-1, 0}}};
     w.box.periodic_x = false;
   };
-  const Change faint_gravity = [](World& w) { w.gravity = {1e-200, -1e-200}; };
-  const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };
+  const Change faint_gravity = [](World<2>& w) { w.gravity = {1e-200, -1e-200}; };
+  const Change weightless = [](World<2>& w) { w.gravity = Vec2::Zero(); };
 
   add("friction", leave_out, Changes{smooth, general}, Changes{smooth});
   // Without friction nothing spins.

@@ -25,27 +25,27 @@ inline Scene scene_called(const std::string& name, const std::string& accuracy =
 }
 
 /// A scene `time` seconds after its begin. Callers that change it make a copy.
-inline const Simulation& scene_at(double time, const std::string& name,
-                                  const std::string& accuracy = "standard")
+inline const Simulation<2>& scene_at(double time, const std::string& name,
+                                     const std::string& accuracy = "standard")
 {
-  static std::map<std::string, Simulation> made;
+  static std::map<std::string, Simulation<2>> made;
   const auto key = name + " " + accuracy;
   if (const auto found = made.find(key); found != made.end()) return found->second;
   const auto scene = scene_called(name, accuracy);
-  auto simulation = release(deposit(scene), scene);
+  auto simulation = release(deposit<2>(scene), scene);
   while (simulation.time() < time) simulation.advance();
   return made.emplace(key, simulation).first->second;
 }
 
 /// The chute in developed flow.
-inline const Simulation& flow(const std::string& accuracy)
+inline const Simulation<2>& flow(const std::string& accuracy)
 {
   return scene_at(2, "chute", accuracy);
 }
 
 /// `copies` copies of the grains of `one` side by side, in motion, without the impulses of their
 /// contacts, with the conditions of `world`; this function sets the grains and period of `world`.
-inline Simulation side_by_side(const Simulation& one, World world, int copies)
+inline Simulation<2> side_by_side(const Simulation<2>& one, World<2> world, int copies)
 {
   const auto& grains = one.world().grains;
   const double length = one.world().box.length_x;
@@ -64,7 +64,7 @@ inline Simulation side_by_side(const Simulation& one, World world, int copies)
       world.grains.fixed.push_back(grains.fixed[g]);
     }
   }
-  Simulation wide(world, position);
+  Simulation<2> wide(world, position);
   for (std::size_t g = 0; g < position.size(); ++g)
     wide.set_velocity(g, one.velocity(g % grains.size()), one.angular_velocity(g % grains.size()));
   return wide;

@@ -39,7 +39,7 @@ class PeakMemory {
   double before_ = 0;
 };
 
-Simulation bed(const std::string& accuracy, int copies, int threads)
+Simulation<2> bed(const std::string& accuracy, int copies, int threads)
 {
   if (copies == 1) return flow(accuracy);
   auto world = flow(accuracy).world();

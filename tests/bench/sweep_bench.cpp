@@ -7,6 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+
 /// Contact updates per second on the contacts of one step of the chute, by instruction set, and the
 /// additional cost of a step's colouring, packing and warm start.
 namespace grseg {
@@ -32,7 +34,7 @@ void sweep(benchmark::State& state, const std::string& instructions, Effects eff
   auto p = problem();
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  const auto one_sweep = choose_sweep(effects);
+  const auto one_sweep = choose_sweep<2>(effects);
   for (auto _ : state)
     benchmark::DoNotOptimize(one_sweep(packed.runs(), p.motion.data(), p.friction));
   count_contacts(state, p);
@@ -44,9 +46,9 @@ void single_sweep(benchmark::State& state, const std::string& instructions)
   auto p = problem();
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  SingleContacts singles;
+  SingleContacts<2> singles;
   singles.take(std::array{packed.runs()}, p.motion, {}, 1);
-  const auto one_sweep = choose_sweep<float>({});
+  const auto one_sweep = choose_sweep<2, float>({});
   for (auto _ : state)
     benchmark::DoNotOptimize(one_sweep(singles.strips()[0], singles.motion().data(),
                                        static_cast<float>(FrozenProblem::friction)));
@@ -60,7 +62,7 @@ void take_and_give_back(benchmark::State& state)
   auto p = problem();
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  SingleContacts singles;
+  SingleContacts<2> singles;
   for (auto _ : state) {
     singles.take(std::array{packed.runs()}, p.motion, {}, 1);
     singles.give_back(0, packed.runs(), p.friction, {}, p.motion.data());
@@ -71,13 +73,13 @@ void take_and_give_back(benchmark::State& state)
 void scalar_relax_in_list_order(benchmark::State& state)
 {
   auto p = problem();
-  const auto relax_alone = choose_relax({});
+  const auto relax_alone = choose_relax<2>({});
   for (auto _ : state) {
     double largest = 0;
     for (auto& c : p.contacts) {
       const auto change = relax_alone(c, p.motion[static_cast<std::size_t>(c.i)],
                                       p.motion[static_cast<std::size_t>(c.j)], p.friction);
-      largest = std::max({largest, change.change_n, change.change_t});
+      largest = std::max({largest, change.change_n, std::abs(change.change_t[0])});
     }
     benchmark::DoNotOptimize(largest);
   }
@@ -107,7 +109,7 @@ void warm_start(benchmark::State& state)
   auto p = problem();
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  for (auto _ : state) apply_impulses(packed.blocks(), p.motion.data(), {});
+  for (auto _ : state) apply_impulses<2>(packed.blocks(), p.motion.data(), {});
   count_contacts(state, p);
 }
 

@@ -9,10 +9,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static fuzz::ScratchFile file("run.chk");
   file.write(fuzz::text_of(data, size));
   fuzz::try_to([&] {
-    const auto checkpoint = read_checkpoint(file.path());
-    const auto scene = scene_of(checkpoint, file.path());
-    auto simulation = restored_simulation(checkpoint, scene, scene, {});
-    simulation.advance();
+    std::visit(
+        [](const auto& checkpoint) {
+          const auto scene = scene_of(checkpoint.scene, file.path());
+          auto simulation = restored_simulation(checkpoint, scene, scene, {});
+          simulation.advance();
+        },
+        read_checkpoint(file.path()));
   });
   return 0;
 }

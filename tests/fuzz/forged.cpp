@@ -15,11 +15,11 @@ using namespace grseg;
 constexpr std::size_t change_size = 11;
 
 /// An undamaged checkpoint, which scripts/fuzz writes beside the programs.
-const Checkpoint& sound_checkpoint()
+const Checkpoint<2>& sound_checkpoint()
 {
-  static const Checkpoint sound =
+  static const Checkpoint<2> sound = std::get<Checkpoint<2>>(
       read_checkpoint(std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
-                      "seeds/checkpoint/run.chk");
+                      "seeds/checkpoint/run.chk"));
   return sound;
 }
 
@@ -29,7 +29,7 @@ T& at(std::vector<T>& values, std::size_t where)
   return values[where % values.size()];
 }
 
-void change(Checkpoint& forged, std::uint8_t what, std::size_t where, std::int64_t value)
+void change(Checkpoint<2>& forged, std::uint8_t what, std::size_t where, std::int64_t value)
 {
   const auto number = std::bit_cast<double>(value);
   const auto small = static_cast<std::int32_t>(value);
@@ -60,7 +60,7 @@ void change(Checkpoint& forged, std::uint8_t what, std::size_t where, std::int64
       at(state.velocity, where).y() = number;
       break;
     case 8:
-      at(state.image, where) = small;
+      at(state.image, where)[0] = small;
       break;
     case 9:
       forged.box.length_x = number;
@@ -100,9 +100,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   fuzz::try_to([&] {
     write_checkpoint(path, forged);
-    const auto checkpoint = read_checkpoint(path);
-    const auto scene = scene_of(checkpoint, path);
-    restored_simulation(checkpoint, scene, scene, {}).advance();
+    std::visit(
+        [](const auto& checkpoint) {
+          const auto scene = scene_of(checkpoint.scene, path);
+          restored_simulation(checkpoint, scene, scene, {}).advance();
+        },
+        read_checkpoint(path));
   });
   std::filesystem::remove(path);
   return 0;

@@ -25,7 +25,7 @@ struct EnergyBalance {
   }
 };
 
-EnergyBalance balance_of_a_step(Simulation& simulation)
+EnergyBalance balance_of_a_step(Simulation<2>& simulation)
 {
   const auto& world = simulation.world();
   const Velocities before(simulation);
@@ -91,7 +91,7 @@ struct Momenta {
   Vec2 linear = Vec2::Zero();  // linear momentum, kg m/s
   double angular = 0;          // angular momentum about the origin, kg m^2/s
 
-  explicit Momenta(const Simulation& s)
+  explicit Momenta(const Simulation<2>& s)
   {
     const auto& grains = s.world().grains;
     for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -109,7 +109,7 @@ struct Collapse {
   double scale = 0;  // scale of the momenta that are summed, kg m/s
   double impulses = 0;
 
-  static Simulation begin(bool periodic)
+  static Simulation<2> begin(bool periodic)
   {
     auto c = crowd(8, 8, 1);
     c.world.box.periodic_x = periodic;
@@ -121,7 +121,7 @@ struct Collapse {
 
   explicit Collapse(bool periodic) : Collapse(begin(periodic)) {}
 
-  explicit Collapse(Simulation simulation) : start(simulation), end(simulation)
+  explicit Collapse(Simulation<2> simulation) : start(simulation), end(simulation)
   {
     for (std::size_t g = 0; g < simulation.world().grains.size(); ++g)
       scale += simulation.world().grains.mass[g] * simulation.velocity(g).norm();

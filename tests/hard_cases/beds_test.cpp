@@ -25,7 +25,7 @@ using worlds::positions_of;
 
 constexpr double g = 9.8;
 
-double mobile_mass(const World& world)
+double mobile_mass(const World<2>& world)
 {
   double mass = 0;
   for (std::size_t k = 0; k < world.grains.size(); ++k)
@@ -33,12 +33,12 @@ double mobile_mass(const World& world)
   return mass;
 }
 
-double kinetic_energy_of(const Simulation& s)
+double kinetic_energy_of(const Simulation<2>& s)
 {
   return translational_energy(s) + rotational_energy(s);
 }
 
-std::vector<Vec2> positions_in(const Simulation& simulation)
+std::vector<Vec2> positions_in(const Simulation<2>& simulation)
 {
   std::vector<Vec2> x;
   for (std::size_t k = 0; k < simulation.world().grains.size(); ++k)
@@ -54,7 +54,7 @@ double largest_move(const std::vector<Vec2>& before, const std::vector<Vec2>& af
   return largest;
 }
 
-void run(Simulation& simulation, std::int64_t steps)
+void run(Simulation<2>& simulation, std::int64_t steps)
 {
   for (std::int64_t k = 0; k < steps; ++k) simulation.advance();
 }
@@ -63,7 +63,7 @@ void run(Simulation& simulation, std::int64_t steps)
 struct Cut {
   double weight = 0, carried = 0;  // N
 
-  Cut(const World& world, const Frame<2>& frame, double y)
+  Cut(const World<2>& world, const Frame<2>& frame, double y)
   {
     const auto above = [&](std::int32_t k) {
       return k >= 0 && frame.position[static_cast<std::size_t>(k)].y() > y;
@@ -80,10 +80,10 @@ struct Cut {
 TEST(StaticBed, PressesOnItsBaseWithItsWeightAndOnEachLevelWithThatOfWhatIsAbove)
 {
   const auto scene = small_chute::paper_scene({"--depth", "20dS", "--length", "20dS"});
-  const auto deposited = deposit(scene);
+  const auto deposited = deposit<2>(scene);
   auto world = deposited.world();
   world.solver = {1e-9, 20000, true};
-  Simulation bed(world, deposited.state());
+  Simulation<2> bed(world, deposited.state());
   run(bed, 4000);
   Case base("H31", "force on the base over the weight, each step"),
       level("H31", "force across a level over the weight above");
@@ -135,7 +135,7 @@ TEST(SteadyFlow, BalancesGravityAtEveryLevelAndHasBagnoldsProfile)
   Vec2 base = Vec2::Zero();
   std::vector<double> sum(40), count(40);
   for (int step = 0; step < 160000; ++step) {
-    base += flow.advance().base_impulse;
+    base += flow.advance().base_impulse.head<2>();
     if (step % 200 != 0) continue;
     for (std::size_t k = 0; k < flow.world().grains.size(); ++k) {
       const auto bin = static_cast<std::size_t>(std::max(0.0, flow.position(k).y() / d));
@@ -218,7 +218,7 @@ TEST(TiltedBed, RestsUntilItsSlopeIsThatOfReposeAndThenFlows)
   const auto scene = small_chute::paper_scene(
       {"--depth", "15dS", "--length", "15dS", "--slope", "0", "--slope-rate", "2.5"});
   auto bed = small_chute::bed(scene);
-  bed.tilt(gravity_of(scene));
+  bed.tilt(gravity_of<2>(scene));
   const double unit = mobile_mass(bed.world()) * g * scene.small_diameter;
   while (kinetic_energy_of(bed) < unit && bed.time() < 16) run(bed, 100);
   Case("G12", "slope at which a bed begins to flow that is tilted by 2.5°/s, °")
@@ -231,7 +231,7 @@ TEST(JammedHopper, HoldsItsLoadForAHundredThousandSteps)
       small_chute::paper_scene({"--geometry", "hopper", "--lateral", "walls", "--outlet", "2dS",
                                 "--depth", "20dS", "--length", "20dS", "--size-ratio", "1",
                                 "--spread", "0.4", "--phi-large", "0", "--slope", "0"});
-  auto hopper = release(deposit(scene), scene);
+  auto hopper = release(deposit<2>(scene), scene);
   run(hopper, 20000);
   const auto& world = hopper.world();
   const auto before = positions_in(hopper);
@@ -270,7 +270,7 @@ TEST(JammedHopper, HoldsItsLoadForAHundredThousandSteps)
 
 /// Discs of diameter 1 +- 10 %, poured in `rows` rows into a box of width `width` between straight walls.
 /// The bottom is a row of fixed discs with a hole of width `outlet` in the middle; 0: no hole.
-Simulation silo(double width, int rows, double outlet, double friction, unsigned long seed = 0)
+Simulation<2> silo(double width, int rows, double outlet, double friction, unsigned long seed = 0)
 {
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random{gsl_rng_alloc(gsl_rng_mt19937),
                                                                  gsl_rng_free};
@@ -297,7 +297,7 @@ Simulation silo(double width, int rows, double outlet, double friction, unsigned
 }
 
 /// The same silo with its grains where they are now, and with another bottom.
-Simulation opened(const Simulation& closed, double width, double outlet)
+Simulation<2> opened(const Simulation<2>& closed, double width, double outlet)
 {
   auto world = closed.world();
   std::vector<Disc> discs;
@@ -367,7 +367,7 @@ struct SlidingSilo {
   }
 
  private:
-  void add(const World& world, const Frame<2>& frame, double width, double share)
+  void add(const World<2>& world, const Frame<2>& frame, double width, double share)
   {
     const auto& list = frame.contacts;
     const auto height = [&](std::size_t c) {
@@ -430,7 +430,7 @@ TEST(Silo, WhoseFillingSlidesSaturatesAsJanssenSays)
 }
 
 /// Mass per time through an outlet while 15 to 50 % of the grains leave, kg/s.
-double discharge(const Simulation& closed, double width, double outlet)
+double discharge(const Simulation<2>& closed, double width, double outlet)
 {
   auto open = opened(closed, width, outlet);
   const auto passed = [&] {

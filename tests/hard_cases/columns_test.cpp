@@ -24,18 +24,18 @@ constexpr double gh = 9.8e-3;  // velocity that gravity adds per step, m/s
 /// Discs of these masses one above the other, each falling at g h, with zero impulses at first.
 /// Contact k joins disc k to the disc below it or to the floor.
 struct Column {
-  std::vector<Motion> motion;
-  std::vector<Contact> contacts;
+  std::vector<Motion<2>> motion;
+  std::vector<Contact<2>> contacts;
 
   explicit Column(const std::vector<double>& masses)
   {
-    for (const double m : masses) motion.push_back({0, -gh, 0, 1 / m});
+    for (const double m : masses) motion.push_back({{0, -gh}, 1 / m});
     motion.push_back({});
     for (std::size_t k = 0; k < masses.size(); ++k) {
-      Contact c{};
+      Contact<2> c{};
       c.i = static_cast<std::int32_t>(k);
       c.j = static_cast<std::int32_t>(k == 0 ? masses.size() : k - 1);
-      c.ny = c.kappa = 1;
+      c.n[1] = c.kappa = 1;
       c.mass_n = 1 / (motion[k].inverse_mass + (k == 0 ? 0 : motion[k - 1].inverse_mass));
       c.mass_t = c.mass_n / 3;
       contacts.push_back(c);
@@ -143,7 +143,7 @@ struct Burdened {
     world.walls = {worlds::floor_at(0)};
     world.gravity = {0, -gh / world.step};
     world.solver = {0, sweeps};
-    Simulation simulation(world, worlds::positions_of(column));
+    Simulation<2> simulation(world, worlds::positions_of(column));
     double before = 0;
     for (int k = 0; k < 4000; ++k) before = simulation.advance().base_impulse.y();
     const double weight = discs * world.grains.mass[0] * gh;

@@ -21,7 +21,7 @@ using worlds::positions_of;
 constexpr double g = 9.8;
 
 /// A heavy disc at rest on a light one on a floor.
-Simulation heavy_on_light(double ratio, double tolerance, int max_sweeps)
+Simulation<2> heavy_on_light(double ratio, double tolerance, int max_sweeps)
 {
   const std::vector<Disc> discs{{{0, 0.5}, 0.5}, {{0, 1.5}, 0.5}};
   auto world = worlds::world_of(discs);
@@ -70,7 +70,7 @@ TEST(Column, OfFiveHundredDiscsSinksByNoMoreThanTwiceItsStaticSinking)
   world.gravity = {0, -g};
   world.step = 0.01 / std::sqrt(g);
   world.solver = {0, sweeps};
-  Simulation column(world, positions_of(discs));
+  Simulation<2> column(world, positions_of(discs));
   const double unit = g * world.step * world.step / sweeps;
   double overlap = 0, sinking = 0, sideways = 0;
   for (int step = 0; step < steps; ++step) {
@@ -103,8 +103,8 @@ TEST(Coefficients, AtTheEndsOfTheirRangesKeepTheBalanceAndTheGrains)
       Frame<2> frame;
       for (int step = 0; step < 1500; ++step) {
         simulation.advance(frame);
-        const auto balance = energy_balance(c.world.grains, frame, simulation.before(),
-                                            c.world.gravity, c.world.step);
+        const auto balance = energy_balance<2>(c.world.grains, frame, simulation.before(),
+                                               c.world.gravity, c.world.step);
         defects.at_most(balance.defect(), 1e-12);
         for (std::size_t k = 0; k < c.position.size(); ++k)
           overlap.at_most(
@@ -159,7 +159,7 @@ TEST(Cloud, OfRoughDiscsCoolsWithoutGravityUntilLoadsHaveFaded)
 }
 
 /// A fixed floor of discs, five layers on it, and one disc that falls on them at 10^4 sqrt(g d).
-Simulation projectile(double step)
+Simulation<2> projectile(double step)
 {
   std::vector<Disc> discs;
   for (int row = 0; row < 6; ++row)
@@ -172,7 +172,7 @@ Simulation projectile(double step)
   world.material.restitution = 0.25;
   world.solver = {1e-2, 500};
   world.step = step;
-  Simulation simulation(world, positions_of(discs));
+  Simulation<2> simulation(world, positions_of(discs));
   simulation.set_velocity(discs.size() - 1, {0, -1e4 * std::sqrt(g)});
   return simulation;
 }

@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Fall, testing::ValuesIn(laws()), name_of);
 constexpr double g = 9.8, r = 0.5;
 
 /// A disc whose lowest point is `height` above a floor.
-Simulation released(World world, double height, double restitution, double step)
+Simulation<2> released(World<2> world, double height, double restitution, double step)
 {
   world.walls = {floor_at(0)};
   world.material.restitution = restitution;
@@ -38,7 +38,7 @@ Simulation released(World world, double height, double restitution, double step)
 }
 
 /// Height of the next apex of the disc, relative to its height at rest.
-double apex(const Simulation& s)
+double apex(const Simulation<2>& s)
 {
   const double v = s.velocity(0).y();
   return s.position(0).y() - r + v * v / (2 * g);
@@ -51,7 +51,7 @@ TEST_P(Fall, FreeFallIsExactForAnyStep)
     auto world = world_of({{{0, 0}, r}});
     world.gravity = {0, -g};
     world.step = step;
-    Simulation simulation(world, {{0, 100}});
+    Simulation<2> simulation(world, {{0, 100}});
     for (auto k = std::llround(2 / step); k > 0; --k) simulation.advance();
     way.near(simulation.position(0).y(), 100 - g * 2 * 2 / 2, 1e-10);
     speed.near(simulation.velocity(0).y(), -2 * g, 1e-11);
@@ -64,7 +64,7 @@ struct Bounces {
   double path = 0;      // length of the path, m
   double last_run = 0;  // last time at which it was faster than g h, s
 
-  explicit Bounces(Simulation& simulation, double until)
+  explicit Bounces(Simulation<2>& simulation, double until)
   {
     const double h = simulation.world().step;
     while (simulation.time() < until) {
@@ -130,7 +130,7 @@ TEST_P(Fall, AnElasticDiscInASmoothBoxKeepsItsEnergy)
   world.walls = {floor_at(0), {{0, 7}, {0, -1}}, {{0, 0}, {1, 0}}, {{9, 0}, {-1, 0}}};
   world.material = {0, 1};
   world.step = 0.1;
-  Simulation simulation(world, {{3, 4}});
+  Simulation<2> simulation(world, {{3, 4}});
   simulation.set_velocity(0, {1.3, 0.7}, 2);
   const double start = kinetic_energy(simulation);
   int impacts = 0;
@@ -164,12 +164,12 @@ TEST_P(Fall, AnInelasticDiscStopsAtItsFirstContactAndStays)
 
 /// A row of touching fixed discs along y = 0, and one disc above it that moves down by `per_step`
 /// diameters per step, over a disc (offset 0) or between two (offset 1/2).
-Simulation over_a_row(World world, double offset, double height, double per_step)
+Simulation<2> over_a_row(World<2> world, double offset, double height, double per_step)
 {
   std::vector<Disc> discs{{{offset, height}, r}};
   for (int k = -3; k <= 3; ++k) discs.push_back({{static_cast<double>(k), 0}, r, true});
   world.grains = worlds::world_of(discs).grains;
-  Simulation simulation(world, positions_of(discs));
+  Simulation<2> simulation(world, positions_of(discs));
   simulation.set_velocity(0, {0, -per_step / world.step});
   return simulation;
 }
@@ -202,11 +202,11 @@ class Tunnelling : public UnderEveryLaw {
     double lowest = std::numeric_limits<double>::infinity();  // lowest height, m
     int divided = 0;                                          // steps taken in parts
   };
-  Run run(Simulation simulation)
+  Run run(Simulation<2> simulation)
   {
     Run seen;
     const auto& world = simulation.world();
-    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables(2)});
     Recorder recorder(writer, 2 * r);
     Frame<2> frame;
     try {

@@ -11,14 +11,14 @@
 namespace grseg::hard_cases {
 
 struct Crowd {
-  World world;
+  World<2> world;
   std::vector<Vec2> position;
   std::vector<Vec2> velocity;
   std::vector<double> spin;  // rad/s
 
-  Simulation simulation() const
+  Simulation<2> simulation() const
   {
-    Simulation s(world, position);
+    Simulation<2> s(world, position);
     for (std::size_t g = 0; g < velocity.size(); ++g) s.set_velocity(g, velocity[g], spin[g]);
     return s;
   }

@@ -21,7 +21,7 @@ constexpr int columns = 60, rows = 60;
 
 /// Smooth equal discs of diameter 1 with Gaussian velocities of temperature m, between two walls and
 /// periodic along them. They are elastic at first, so that nothing of the initial lattice remains.
-Simulation equilibrium(double restitution)
+Simulation<2> equilibrium(double restitution)
 {
   const double pitch = std::sqrt(pi / 4 / solid_fraction);
   std::vector<worlds::Disc> discs;
@@ -35,7 +35,7 @@ Simulation equilibrium(double restitution)
   world.law.forecast = 0.5;
   world.step = 0.01;
   world.solver = {1e-6, 100};
-  Simulation elastic(world, worlds::positions_of(discs));
+  Simulation<2> elastic(world, worlds::positions_of(discs));
   const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random{gsl_rng_alloc(gsl_rng_mt19937),
                                                                  gsl_rng_free};
   for (std::size_t g = 0; g < discs.size(); ++g)
@@ -45,13 +45,13 @@ Simulation equilibrium(double restitution)
   world.material.restitution = restitution;
   std::vector<Vec2> position;
   for (std::size_t g = 0; g < discs.size(); ++g) position.push_back(elastic.position(g));
-  Simulation gas(world, position);
+  Simulation<2> gas(world, position);
   for (std::size_t g = 0; g < discs.size(); ++g) gas.set_velocity(g, elastic.velocity(g));
   return gas;
 }
 
 /// Temperature, J, of the motion about the mean: one kT per disc in two dimensions.
-double temperature(const Simulation& gas)
+double temperature(const Simulation<2>& gas)
 {
   const auto count = static_cast<double>(gas.world().grains.size());
   Vec2 mean = Vec2::Zero();

@@ -30,7 +30,7 @@ struct Encounter {
   Vec2 u_after() const { return contact.relative(after); }
 };
 
-Encounter encounter(Simulation simulation)
+Encounter encounter(Simulation<2> simulation)
 {
   Frame<2> frame;
   for (;;) {
@@ -46,11 +46,11 @@ Encounter encounter(Simulation simulation)
 
 /// Two discs of masses 1 and `mass` that approach at 3 m/s along x and touch `steps` steps later.
 /// Across x their centres are `offset` times the sum of radii apart.
-Simulation two_discs(World world, double mass, double offset, double steps)
+Simulation<2> two_discs(World<2> world, double mass, double offset, double steps)
 {
   const double reach = 0.75, way = std::sqrt(1 - offset * offset) * reach;
   world.grains.mass = {1, mass};
-  Simulation simulation(world, {{0, 0}, {way + 3 * steps * world.step, offset * reach}});
+  Simulation<2> simulation(world, {{0, 0}, {way + 3 * steps * world.step, offset * reach}});
   simulation.set_velocity(0, {1, 0}, 2);
   simulation.set_velocity(1, {-2, 0}, -5);
   return simulation;
@@ -117,11 +117,11 @@ TEST_P(Impact, ASmoothImpactLosesOneMinusESquaredOfItsNormalEnergy)
 /// Checks a disc of velocity -n + slip t and rim speed `spin` that hits something fixed whose
 /// surface at `target` has the normal n. It sticks iff |u_t| <= (1 + 2 kappa^2) mu (1 + e) |u_n|,
 /// which is 3 mu (1 + e) |u_n| at a wall. Returns true if it stuck.
-bool check_oblique_impact(const World& world, const Vec2& target, const Vec2& n, double slip,
+bool check_oblique_impact(const World<2>& world, const Vec2& target, const Vec2& n, double slip,
                           double spin, Case& tangential, Case& spinning)
 {
   const Vec2 t{-n.y(), n.x()}, velocity = slip * t - n;
-  Simulation simulation(world, {target + 0.5 * n - 1.7 * world.step * velocity, {0, 0}});
+  Simulation<2> simulation(world, {target + 0.5 * n - 1.7 * world.step * velocity, {0, 0}});
   simulation.set_velocity(0, velocity, spin / world.grains.radius[0]);
   const auto hit = encounter(simulation);
   const auto& c = hit.contact;
@@ -150,7 +150,7 @@ TEST_P(Impact, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
         auto disc = floor;
         floor.walls = {floor_at(5)};
         const Vec2 n{0.6, 0.8};
-        const auto sticks = [&](const World& world, const Vec2& target, const Vec2& normal) {
+        const auto sticks = [&](const World<2>& world, const Vec2& target, const Vec2& normal) {
           return check_oblique_impact(world, target, normal, slip, spin, tangential, spinning);
         };
         EXPECT_EQ(sticks(floor, {0, 5}, {0, 1}), std::abs(part) < 1);
@@ -159,10 +159,10 @@ TEST_P(Impact, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
 }
 
 /// A row of touching discs along x, one step after they were given these speeds.
-Simulation row_after_a_step(const World& world, const std::vector<Disc>& discs,
-                            const std::vector<double>& speeds)
+Simulation<2> row_after_a_step(const World<2>& world, const std::vector<Disc>& discs,
+                               const std::vector<double>& speeds)
 {
-  Simulation row(world, positions_of(discs));
+  Simulation<2> row(world, positions_of(discs));
   for (std::size_t k = 0; k < speeds.size(); ++k) row.set_velocity(k, {speeds[k], 0});
   EXPECT_TRUE(row.advance().solver.converged);
   return row;
@@ -209,7 +209,7 @@ TEST_P(Impact, AnElasticRowWithGapsWiderThanAStepHandsTheSpeedToItsLastDisc)
       discs[k].position.x() += gap * static_cast<double>(k);
     auto world = world_of(discs);
     world.material.restitution = 1;
-    Simulation row(world, positions_of(discs));
+    Simulation<2> row(world, positions_of(discs));
     row.set_velocity(0, {v, 0});
     for (int step = 0; step < 400; ++step) row.advance();
     last.near(row.velocity(5).x(), v, 1e-13);
@@ -232,7 +232,7 @@ TEST_P(Impact, ThreeInelasticDiscsCollapseAtFiniteCost)
       auto world = world_of(discs);
       world.material = {0, e};
       world.solver = {1e-2, 500};
-      Simulation row(world, positions_of(discs));
+      Simulation<2> row(world, positions_of(discs));
       row.set_velocity(0, {left, 0});
       row.set_velocity(2, {-1, 0});
       for (int step = 0; step < 5000; ++step) sweeps.at_most(row.advance().solver.sweeps, 499);
@@ -254,7 +254,7 @@ TEST_P(Impact, LoadsThatFadeNeedNoMoreSweepsThanRoundOffAllows)
     auto world = world_of(discs);
     world.material = {0, e};
     world.solver = {1e-12, 500};
-    Simulation row(world, positions_of(discs));
+    Simulation<2> row(world, positions_of(discs));
     row.set_velocity(0, {0.7, 0});
     row.set_velocity(2, {-1, 0});
     for (int step = 0; step < 5000; ++step) {
@@ -301,7 +301,7 @@ TEST_P(ImpactAtOnce, AStepOfManySmoothContactsLosesOneMinusEOverOnePlusEOfHalfPW
     world.solver = {1e-13, 20000};
     for (std::size_t g = 0; g < discs.size(); ++g)
       world.grains.mass[g] = std::pow(10, std::sin(7.0 * static_cast<double>(g)));
-    Simulation simulation(world, positions_of(discs));
+    Simulation<2> simulation(world, positions_of(discs));
     for (std::size_t g = 0; g < discs.size(); ++g) {
       const auto phase = static_cast<double>(g);
       simulation.set_velocity(g, {std::sin(phase * phase), std::cos(3 * phase * phase)});
@@ -326,7 +326,7 @@ TEST_P(ImpactAtOnce, ALightDiscThatRattlesBetweenHeavyOnesDoesNotDriveThemApart)
   world.grains.mass = {1000, 1, 1000};
   world.material = {0, 0.9};
   world.solver = {1e-12, 1000};
-  auto row = Simulation(world, positions_of(discs));
+  auto row = Simulation<2>(world, positions_of(discs));
   row.set_velocity(1, {1, 0});
   Case gain("G19", "energy of a light disc between heavy ones, over its first");
   const double first = kinetic_energy(row);

@@ -117,7 +117,7 @@ struct Forces {
   std::vector<Vec2> impulse;  // kg m/s
   std::vector<Vec2> velocity;
 
-  explicit Forces(Simulation simulation)
+  explicit Forces(Simulation<2> simulation)
   {
     Frame<2> frame;
     simulation.advance(frame);
@@ -126,7 +126,8 @@ struct Forces {
     solve_contacts(problem.contacts, problem.motion, simulation.world().material.friction, {},
                    {0, 50}, 1);
     for (const auto& c : problem.contacts)
-      impulse.push_back(c.impulse_n * Vec2(c.nx, c.ny) + c.impulse_t * Vec2(-c.ny, c.nx));
+      impulse.push_back(c.impulse_n * Vec2(c.n[0], c.n[1]) +
+                        c.impulse_t[0] * Vec2(-c.n[1], c.n[0]));
     for (std::size_t g = 0; g < simulation.world().grains.size(); ++g)
       velocity.push_back(simulation.velocity(g));
   }

@@ -47,7 +47,7 @@ inline std::vector<Law> early_laws()
 
 class UnderEveryLaw : public testing::TestWithParam<Law> {
  protected:
-  World world_of(const std::vector<worlds::Disc>& discs) const
+  World<2> world_of(const std::vector<worlds::Disc>& discs) const
   {
     auto world = worlds::world_of(discs);
     world.law = GetParam().parameters;

@@ -40,16 +40,16 @@ struct History {
   bool finite = true;
 };
 
-double total_energy(const Simulation& s)
+double total_energy(const Simulation<2>& s)
 {
   return translational_energy(s) + rotational_energy(s) + potential_energy(s);
 }
 
-Sample sample_of(const Simulation& simulation, const Frame<2>& frame)
+Sample sample_of(const Simulation<2>& simulation, const Frame<2>& frame)
 {
   const auto& world = simulation.world();
   const auto energy =
-      energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+      energy_balance<2>(world.grains, frame, simulation.before(), world.gravity, world.step);
   return {simulation.time(),
           0,
           0,
@@ -65,7 +65,7 @@ double pocket(double base, double radius)
   return std::sqrt((base + radius) * (base + radius) - base * base) - base;
 }
 
-void look_at_the_bed(const Simulation& simulation, History& history)
+void look_at_the_bed(const Simulation<2>& simulation, History& history)
 {
   const auto& world = simulation.world();
   double volume = 0, base = 0, smallest = 1e300, largest = 0;

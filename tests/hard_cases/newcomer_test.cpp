@@ -17,7 +17,7 @@ constexpr double tolerance = 1e-2;
 
 /// A periodic bed of 60 layers of discs of diameter 1 on a row of fixed discs, at rest. A disc of
 /// diameter 4, the last grain, is held just above it.
-Simulation settled_bed()
+Simulation<2> settled_bed()
 {
   const int layers = 60, width = 12;
   const double pitch = 1.02, rise = std::sqrt(1 - pitch * pitch / 4);
@@ -30,7 +30,7 @@ Simulation settled_bed()
   world.box = {pitch * width, 100, true};
   world.gravity = {0, -9.8};
   world.solver = {tolerance, 5000};
-  Simulation bed(world, worlds::positions_of(discs));
+  Simulation<2> bed(world, worlds::positions_of(discs));
   for (int step = 0; step < 300; ++step) {
     bed.set_velocity(discs.size() - 1, {0, 0});
     bed.advance();
@@ -40,24 +40,24 @@ Simulation settled_bed()
 
 /// Largest change that relaxing a single contact would still make after a step, over the reference
 /// velocity of the tolerance (solver.hpp), computed from the frame.
-double change_left(const Simulation& bed, const Frame<2>& frame)
+double change_left(const Simulation<2>& bed, const Frame<2>& frame)
 {
   auto problem = contact_problem(bed, frame);
   for (std::size_t k = 0; k < bed.world().grains.size(); ++k) {
     auto& m = problem.motion[k];
-    m.vx = frame.velocity[k].x();
-    m.vy = frame.velocity[k].y();
-    m.rim_speed = frame.angular_velocity[k] * bed.world().grains.radius[k];
+    m.v[0] = frame.velocity[k].x();
+    m.v[1] = frame.velocity[k].y();
+    m.rim[0] = frame.angular_velocity[k] * bed.world().grains.radius[k];
   }
   double squares = 0;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     auto& contact = problem.contacts[c];
-    const Vec2 n(contact.nx, contact.ny), t(-contact.ny, contact.nx);
+    const Vec2 n(contact.n[0], contact.n[1]), t(-contact.n[1], contact.n[0]);
     const Vec2 impulse = frame.contacts.force[c] * bed.world().step;
     contact.impulse_n = impulse.dot(n);
-    contact.impulse_t = impulse.dot(t);
+    contact.impulse_t[0] = impulse.dot(t);
     squares += std::pow(contact.impulse_n / contact.mass_n, 2) +
-               std::pow(contact.impulse_t / contact.mass_t, 2);
+               std::pow(contact.impulse_t[0] / contact.mass_t, 2);
   }
   const double reference = std::sqrt(squares / static_cast<double>(problem.contacts.size()));
   return contact_residual(problem.contacts, problem.motion, bed.world().material.friction, {}) /
@@ -69,7 +69,7 @@ double change_left(const Simulation& bed, const Frame<2>& frame)
 struct Landing {
   double first = 0, deepest = 0, change = 0;
 
-  Landing(Simulation bed, double speed)
+  Landing(Simulation<2> bed, double speed)
   {
     const std::size_t last = bed.world().grains.size() - 1;
     bed.set_velocity(last, {0, -speed});

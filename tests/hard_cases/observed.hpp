@@ -14,7 +14,7 @@ struct Velocities {
   std::vector<Vec2> velocity;     // m/s
   std::vector<double> rim_speed;  // radius times angular velocity, m/s
 
-  explicit Velocities(const Simulation& simulation)
+  explicit Velocities(const Simulation<2>& simulation)
   {
     const auto& radius = simulation.world().grains.radius;
     for (std::size_t g = 0; g < radius.size(); ++g) {
@@ -33,7 +33,7 @@ struct SeenContact {
   Vec2 impulse;    // kg m/s, on i
   double overlap;  // m
 
-  SeenContact(const World& world, const ContactList<2>& list, std::size_t c)
+  SeenContact(const World<2>& world, const ContactList<2>& list, std::size_t c)
       : i(static_cast<std::size_t>(list.i[c])),
         j(list.j[c]),
         n(list.branch[c].normalized()),
@@ -59,7 +59,7 @@ struct SeenContact {
   }
 };
 
-inline double kinetic_energy(const Simulation& simulation)
+inline double kinetic_energy(const Simulation<2>& simulation)
 {
   return translational_energy(simulation) + rotational_energy(simulation);
 }

@@ -25,7 +25,7 @@ TEST(Overlap, OfTwoDiscsAtRestStaysAndGivesNoEnergy)
       const std::vector<Disc> discs{{{0, 0}, 0.5}, {{1 - delta, 0}, 0.5}};
       auto world = worlds::world_of(discs);
       world.material.restitution = e;
-      Simulation pair(world, positions_of(discs));
+      Simulation<2> pair(world, positions_of(discs));
       for (int step = 0; step < 1000; ++step) pair.advance();
       overlap.near(1 - (pair.position(1) - pair.position(0)).norm(), delta, 1e-15);
       energy.near(kinetic_energy(pair), 0, 0);
@@ -57,7 +57,7 @@ Vec2 velocity_after(double gap)
   auto world = worlds::world_of(discs);
   world.material = {0.3, 0.5};
   const Vec2 n{0.6, 0.8}, velocity{0.3, -2};
-  Simulation pair(world, {(1 + gap) * n - world.step / 2 * velocity, {0, 0}});
+  Simulation<2> pair(world, {(1 + gap) * n - world.step / 2 * velocity, {0, 0}});
   pair.set_velocity(0, velocity, 3);
   pair.advance();
   return pair.velocity(0);
@@ -73,7 +73,7 @@ TEST(Gap, OfABillionthOfADiameterMoreOrLessMakesNoDifference)
     auto world = worlds::world_of(discs);
     world.walls = {worlds::floor_at(0)};
     world.gravity = {0, -9.8};
-    Simulation disc(world, positions_of(discs));
+    Simulation<2> disc(world, positions_of(discs));
     Frame<2> frame;
     for (int step = 0; step < 100; ++step) {
       disc.advance(frame);

@@ -13,7 +13,7 @@ namespace grseg::hard_cases {
 
 /// Runs `steps` steps with a recorder, as grseg-sim does, and writes a frame every `every` steps.
 /// Returns the message with which a run out of bounds is stopped, or nothing.
-inline std::string words_of_a_run(Simulation simulation, double small_diameter, int steps,
+inline std::string words_of_a_run(Simulation<2> simulation, double small_diameter, int steps,
                                   int every = 1)
 {
   const auto path = (std::filesystem::temp_directory_path() /
@@ -22,7 +22,7 @@ inline std::string words_of_a_run(Simulation simulation, double small_diameter, 
   std::string words;
   try {
     const auto& world = simulation.world();
-    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables(2)});
     Recorder recorder(writer, small_diameter);
     Frame<2> frame;
     for (int k = 1; k <= steps; ++k) {

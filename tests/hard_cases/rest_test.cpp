@@ -24,7 +24,7 @@ struct Rest {
   Rest(const std::vector<std::string>& words, double duration)
   {
     const auto scene = small_chute::paper_scene(words);
-    auto bed = release(deposit(scene), scene);
+    auto bed = release(deposit<2>(scene), scene);
     const double unit = mobile_mass(bed.world().grains) * scene.gravity * scene.small_diameter;
     double least = std::numeric_limits<double>::infinity();
     while (bed.time() < duration) {
@@ -78,7 +78,7 @@ TEST(Rest, ABedUnderALoadedPlateComesToRestAndStays)
     const auto scene = small_chute::paper_scene(
         {"--geometry", "shear", "--size-ratio", "1", "--phi-large", "0", "--depth", "10dS",
          "--length", "20dS", "--plate-speed", "0", "--slope", "0", "--accuracy", accuracy});
-    auto bed = release(deposit(scene), scene);
+    auto bed = release(deposit<2>(scene), scene);
     const auto last = bed.world().grains.size() - 1;
     double height = 0, before = 0, mean = 0;
     while (bed.time() < 10) {
@@ -99,7 +99,7 @@ TEST(Rest, HeavyGrainsDoNotSinkIntoLightOnes)
     auto words = heavy_above(masses, "1");
     words.insert(words.end(), {"--accuracy", "draft"});
     const auto scene = small_chute::paper_scene(words);
-    auto bed = release(deposit(scene), scene);
+    auto bed = release(deposit<2>(scene), scene);
     double largest = 0;
     while (bed.time() < 2) largest = std::max(largest, bed.advance().largest_overlap);
     overlap.at_most(largest / scene.small_diameter, 0.1);
@@ -116,16 +116,16 @@ TEST(Rest, ABedOnABaseThatJerksGetsNoEnergyFromItsOwnContacts)
     const auto scene = small_chute::paper_scene(
         {"--size-ratio", "4", "--restitution", "0", "--slope", "0", "--depth", "12dS", "--length",
          "6dL", "--shake-amplitude", "0.05dS", "--shake-frequency", "52", "--accuracy", accuracy});
-    auto bed = release(deposit(scene), scene);
+    auto bed = release(deposit<2>(scene), scene);
     const auto& world = bed.world();
     const double unit = mobile_mass(world.grains) * scene.gravity * scene.small_diameter;
     Frame<2> frame;
     double work = 0;
     for (int step = 0; step < 100; ++step) {
       bed.advance(frame);
-      work += std::max(
-          0.0, energy_balance(world.grains, frame, bed.before(), world.gravity, bed.written_step())
-                   .work_of_contacts);
+      work += std::max(0.0, energy_balance<2>(world.grains, frame, bed.before(), world.gravity,
+                                              bed.written_step())
+                                .work_of_contacts);
     }
     gain.at_most(work / unit, 0.02);
   }
@@ -140,7 +140,7 @@ TEST(Rest, GrainsInTheGapsOfABaseNeitherSinkNorLockForGood)
       force("G17", "largest force on a base with gaps, last of 20 s, weights of a small grain");
   const auto scene = small_chute::paper_scene(
       {"--base-spacing", "1.43dL", "--length", "20.02dL", "--depth", "20dS", "--phi-large", "0.1"});
-  auto flow = release(deposit(scene), scene);
+  auto flow = release(deposit<2>(scene), scene);
   while (flow.time() < 20) flow.advance();
   Frame<2> frame;
   flow.advance(frame);

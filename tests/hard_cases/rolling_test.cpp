@@ -14,7 +14,7 @@ namespace {
 constexpr double g = 9.8, r = 0.5, h = 1e-3;
 
 /// A disc that touches a plane of slope angle `slope` (radians).
-Simulation on_a_plane(double slope, double friction, bool rotation)
+Simulation<2> on_a_plane(double slope, double friction, bool rotation)
 {
   auto world = worlds::world_of({{{0, r}, r}});
   world.walls = {worlds::floor_at(0)};
@@ -25,7 +25,7 @@ Simulation on_a_plane(double slope, double friction, bool rotation)
 }
 
 /// Velocity of the disc's lowest point.
-double slip(const Simulation& s)
+double slip(const Simulation<2>& s)
 {
   return s.velocity(0).x() + r * s.angular_velocity(0);
 }

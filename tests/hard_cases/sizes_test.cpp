@@ -41,7 +41,7 @@ Crowd large_and_small(double ratio)
 }
 
 /// Pairs that touch, found by checking all pairs.
-std::set<std::pair<int, int>> touching(const World& world, const Frame<2>& frame, double margin)
+std::set<std::pair<int, int>> touching(const World<2>& world, const Frame<2>& frame, double margin)
 {
   std::set<std::pair<int, int>> pairs;
   const int count = static_cast<int>(frame.position.size());
@@ -108,9 +108,9 @@ TEST(SizeRatio, OfAHundredLandsWithEveryStepInBalance)
   Frame<2> frame;
   const int steps = 1500;
   for (int step = 0; step < steps; ++step) {
-    floor += simulation.advance(frame).base_impulse;
-    const auto balance = energy_balance(grains, frame, simulation.before(), c.world.gravity,
-                                        simulation.written_step());
+    floor += simulation.advance(frame).base_impulse.head<2>();
+    const auto balance = energy_balance<2>(grains, frame, simulation.before(), c.world.gravity,
+                                           simulation.written_step());
     defects.at_most(balance.defect(), 1e-12);
   }
   const Vec2 weight = steps * c.world.step * mass * c.world.gravity;

@@ -24,14 +24,14 @@ using worlds::positions_of;
 constexpr double g = 9.8;
 
 /// A disc of radius 1/2 on a floor that is level at first; its slope increases by `angle` in every step.
-Simulation disc_on_turning_floor(double angle, double friction)
+Simulation<2> disc_on_turning_floor(double angle, double friction)
 {
   const std::vector<Disc> discs{{{0, 0.5}, 0.5}};
   auto world = worlds::world_of(discs);
   world.walls = {worlds::floor_at(0)};
   world.gravity = {0, -g};
   world.material = {friction, 0};
-  Simulation simulation(world, positions_of(discs));
+  Simulation<2> simulation(world, positions_of(discs));
   simulation.tilt(Gravity<2>(world.gravity, angle / world.step));
   return simulation;
 }
@@ -72,26 +72,26 @@ TEST(Gravity, TurnedUpsideDownReleasesASmoothDiscAtNinetyDegrees)
 }
 
 /// All variables on which steps depend, as bits.
-std::vector<std::uint64_t> bits_of(const Simulation& simulation)
+std::vector<std::uint64_t> bits_of(const Simulation<2>& simulation)
 {
   std::vector<std::uint64_t> bits;
   const auto state = simulation.state();
   for (const auto* vectors : {&state.position, &state.velocity})
     for (const auto& v : *vectors)
       for (const double x : {v.x(), v.y()}) bits.push_back(std::bit_cast<std::uint64_t>(x));
-  for (const double s : state.rim_speed) bits.push_back(std::bit_cast<std::uint64_t>(s));
+  for (const auto& s : state.rim) bits.push_back(std::bit_cast<std::uint64_t>(s[0]));
   return bits;
 }
 
 TEST(Slope, ThatTurnsContinuesBitForBitAfterARestart)
 {
   const auto scene = small_chute::scene({"--slope-rate", "40"});
-  auto whole = deposit(scene);
+  auto whole = deposit<2>(scene);
   const auto world = whole.world();
-  whole.tilt(gravity_of(scene));
+  whole.tilt(gravity_of<2>(scene));
   for (int k = 0; k < 300; ++k) whole.advance();
-  Simulation again(world, whole.state());
-  again.tilt(gravity_of(scene));
+  Simulation<2> again(world, whole.state());
+  again.tilt(gravity_of<2>(scene));
   for (int k = 0; k < 300; ++k) {
     whole.advance();
     again.advance();
@@ -143,7 +143,7 @@ TEST(Slope, ThatChangesDuringTheRunKeepsTheEnergyBudgetOfEveryStep)
     touching += static_cast<double>(report.touching);
     const auto& world = simulation.world();
     defects.at_most(
-        energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step)
+        energy_balance<2>(world.grains, frame, simulation.before(), world.gravity, world.step)
             .defect(),
         1e-12);
   }

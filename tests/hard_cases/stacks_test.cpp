@@ -38,7 +38,7 @@ TEST(Column, TheKthDiscCarriesTheWeightOfThoseAboveAndNothingMovesSideways)
   auto world = worlds::world_of(discs);
   world.walls = {worlds::floor_at(0)};
   world.gravity = {0, -g};
-  Simulation column(world, positions_of(discs));
+  Simulation<2> column(world, positions_of(discs));
   Frame<2> frame;
   for (int step = 0; step < 100; ++step) {
     column.advance(frame);
@@ -58,7 +58,7 @@ TEST(Column, TheKthDiscCarriesTheWeightOfThoseAboveAndNothingMovesSideways)
 
 /// One disc on two that nearly touch, on a floor. If these touched, they could also push each other
 /// by an undetermined force.
-Simulation pyramid(double friction)
+Simulation<2> pyramid(double friction)
 {
   const double gap = 1e-6, x = (1 + gap) / 2;
   const std::vector<Disc> discs{
@@ -116,7 +116,7 @@ TEST(Groove, ADiscBetweenTwoWallsRestsAndItsForcesLieInTheInterval)
       world.walls = {{{0, 0}, {std::sin(a), std::cos(a)}}, {{0, 0}, {-std::sin(a), std::cos(a)}}};
       world.material.friction = mu;
       world.gravity = {0, -g};
-      Simulation groove(world, positions_of(discs));
+      Simulation<2> groove(world, positions_of(discs));
       Frame<2> frame;
       for (int step = 0; step < 200; ++step) groove.advance(frame);
       ASSERT_EQ(frame.contacts.size(), 2u);
@@ -148,7 +148,7 @@ TEST(Heap, ForcesDependOnTheOrderOfContactsAndVelocitiesDoNot)
   auto world = worlds::world_of(discs);
   world.gravity = {0, -g};
   world.solver = {1e-10, 100000};
-  Simulation heap(world, positions_of(discs));
+  Simulation<2> heap(world, positions_of(discs));
   Frame<2> frame;
   heap.advance(frame);
   const auto problem = contact_problem(heap, frame);
@@ -167,7 +167,7 @@ TEST(Heap, ForcesDependOnTheOrderOfContactsAndVelocitiesDoNot)
     EXPECT_TRUE(solve_contacts(contacts, motion, 0.5, {}, {1e-10, 100000}, 1e-3 * gh).converged);
     std::vector<Vec2> sum(motion.size(), Vec2::Zero());
     for (const auto& c : contacts) {
-      const Vec2 p = c.impulse_n * Vec2(c.nx, c.ny) + c.impulse_t * Vec2(-c.ny, c.nx);
+      const Vec2 p = c.impulse_n * Vec2(c.n[0], c.n[1]) + c.impulse_t[0] * Vec2(-c.n[1], c.n[0]);
       sum[static_cast<std::size_t>(c.i)] += p;
       sum[static_cast<std::size_t>(c.j)] -= p;
       const double n = c.impulse_n / (mass_of(0.5) * gh);
@@ -177,7 +177,7 @@ TEST(Heap, ForcesDependOnTheOrderOfContactsAndVelocitiesDoNot)
     }
     for (std::size_t d = 0; d < discs.size(); ++d) {
       if (discs[d].fixed) continue;
-      velocities.at_most(std::hypot(motion[d].vx, motion[d].vy, motion[d].rim_speed) / gh, 1e-6);
+      velocities.at_most(std::hypot(motion[d].v[0], motion[d].v[1], motion[d].rim[0]) / gh, 1e-6);
       sums.at_most((sum[d] / (mass_of(0.5) * gh) - Vec2(0, 1)).norm(), 1e-6);
     }
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,12 +23,13 @@ namespace grseg {
 class ContactBlocks {
  public:
   /// `idle` is the index of an immobile entry of `motion`.
-  void pack(std::span<const Contact> contacts, std::span<const Motion> motion, std::size_t idle);
+  void pack(std::span<const Contact<2>> contacts, std::span<const Motion<2>> motion,
+            std::size_t idle);
   /// Writes the impulses back to the contacts they came from.
-  void unpack(std::span<Contact> contacts) const;
+  void unpack(std::span<Contact<2>> contacts) const;
 
-  std::span<ContactBlock> blocks() { return blocks_; }
-  BlockRuns runs() { return {blocks_, ends_}; }
+  std::span<ContactBlock<2>> blocks() { return blocks_; }
+  BlockRuns<2> runs() { return {blocks_, ends_}; }
   /// Position of each contact: 8 * block + lane. Sweeps relax contacts in this order.
   std::span<const std::uint32_t> slots() const { return slot_; }
   /// Number of contacts of each colour. The last entry counts contacts without a colour, because a
@@ -36,10 +38,10 @@ class ContactBlocks {
   std::span<const std::uint32_t> sizes() const { return sizes_; }
 
  private:
-  void colour(std::span<const Contact> contacts, std::span<const Motion> motion);
+  void colour(std::span<const Contact<2>> contacts, std::span<const Motion<2>> motion);
   void lay_out(std::size_t idle);
 
-  std::vector<ContactBlock> blocks_;
+  std::vector<ContactBlock<2>> blocks_;
   std::vector<std::uint32_t> ends_;   // ends of the blocks of a colour, and of each block without
   std::vector<std::uint64_t> taken_;  // by body, one bit per colour
   std::vector<std::uint8_t> colour_;  // colour by contact
@@ -48,16 +50,16 @@ class ContactBlocks {
   std::array<std::uint32_t, colours + 1> next_{};  // next free slot of each colour
 };
 
-inline ContactBlock neutral_block(std::size_t idle)
+inline ContactBlock<2> neutral_block(std::size_t idle)
 {
-  ContactBlock block{};
-  block.i.fill(static_cast<std::uint32_t>(idle * doubles_per_body));
+  ContactBlock<2> block{};
+  block.i.fill(static_cast<std::uint32_t>(idle * numbers_per_body<2>));
   block.j = block.i;
   return block;
 }
 
-inline void ContactBlocks::pack(std::span<const Contact> contacts, std::span<const Motion> motion,
-                                std::size_t idle)
+inline void ContactBlocks::pack(std::span<const Contact<2>> contacts,
+                                std::span<const Motion<2>> motion, std::size_t idle)
 {
   colour(contacts, motion);
   lay_out(idle);
@@ -70,29 +72,30 @@ inline void ContactBlocks::pack(std::span<const Contact> contacts, std::span<con
     const auto& c = contacts[k];
     auto& block = blocks_[slot / block_lanes];
     const std::size_t lane = slot % block_lanes;
-    block.nx[lane] = c.nx;
-    block.ny[lane] = c.ny;
+    block.n[0][lane] = c.n[0];
+    block.n[1][lane] = c.n[1];
     block.kappa[lane] = c.kappa;
     block.mass_n[lane] = c.mass_n;
     block.mass_t[lane] = c.mass_t;
     block.rebound[lane] = c.rebound;
     block.impulse_n[lane] = c.impulse_n;
-    block.impulse_t[lane] = c.impulse_t;
-    block.i[lane] = static_cast<std::uint32_t>(static_cast<std::size_t>(c.i) * doubles_per_body);
-    block.j[lane] = static_cast<std::uint32_t>(static_cast<std::size_t>(c.j) * doubles_per_body);
+    block.impulse_t[0][lane] = c.impulse_t[0];
+    block.i[lane] = static_cast<std::uint32_t>(static_cast<std::size_t>(c.i) * numbers_per_body<2>);
+    block.j[lane] = static_cast<std::uint32_t>(static_cast<std::size_t>(c.j) * numbers_per_body<2>);
   }
 }
 
-inline void ContactBlocks::unpack(std::span<Contact> contacts) const
+inline void ContactBlocks::unpack(std::span<Contact<2>> contacts) const
 {
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto& block = blocks_[slot_[k] / block_lanes];
     contacts[k].impulse_n = block.impulse_n[slot_[k] % block_lanes];
-    contacts[k].impulse_t = block.impulse_t[slot_[k] % block_lanes];
+    contacts[k].impulse_t[0] = block.impulse_t[0][slot_[k] % block_lanes];
   }
 }
 
-inline void ContactBlocks::colour(std::span<const Contact> contacts, std::span<const Motion> motion)
+inline void ContactBlocks::colour(std::span<const Contact<2>> contacts,
+                                  std::span<const Motion<2>> motion)
 {
   taken_.assign(motion.size(), 0);
   colour_.resize(contacts.size());
@@ -129,20 +132,20 @@ inline void ContactBlocks::lay_out(std::size_t idle)
 }
 
 /// Calls solve_contacts() for contacts in any order.
-inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<Motion>& motion,
-                                   double friction, Effects effects, const SolverSettings& settings,
-                                   const ReferenceRange& range)
+inline SolverReport solve_contacts(std::vector<Contact<2>>& contacts,
+                                   std::vector<Motion<2>>& motion, double friction, Effects effects,
+                                   const SolverSettings& settings, const ReferenceRange& range)
 {
   if (!effects.friction)
-    for (auto& c : contacts) c.impulse_t = 0;
+    for (auto& c : contacts) c.impulse_t[0] = 0;
   const std::size_t bodies = motion.size();
   motion.emplace_back();  // the idle body of unused lanes
   ContactBlocks packed;
   packed.pack(contacts, motion, bodies);
   const std::array strips{packed.runs()};
-  SolverMemory memory;
-  const auto report =
-      solve_contacts(strips, motion, {contacts.size(), friction, effects, settings, range}, memory);
+  SolverMemory<2> memory;
+  const auto report = solve_contacts<2>(
+      strips, motion, {contacts.size(), friction, effects, settings, range}, memory);
   motion.pop_back();
   packed.unpack(contacts);
   return report;
@@ -150,17 +153,18 @@ inline SolverReport solve_contacts(std::vector<Contact>& contacts, std::vector<M
 
 /// Largest violation (m/s) of Signorini's and Coulomb's conditions, for a state from any solver:
 /// the change that relaxing a single contact would make.
-inline double contact_residual(const std::vector<Contact>& contacts,
-                               const std::vector<Motion>& motion, double friction, Effects effects)
+inline double contact_residual(const std::vector<Contact<2>>& contacts,
+                               const std::vector<Motion<2>>& motion, double friction,
+                               Effects effects)
 {
-  const auto relax_alone = choose_relax(effects);
+  const auto relax_alone = choose_relax<2>(effects);
   double largest = 0;
   for (auto alone : contacts) {
     auto a = motion[static_cast<std::size_t>(alone.i)],
          b = motion[static_cast<std::size_t>(alone.j)];
     if (!effects.restitution) alone.rebound = 0;
     const auto change = relax_alone(alone, a, b, friction);
-    largest = std::max({largest, change.change_n, change.change_t});
+    largest = std::max({largest, change.change_n, std::abs(change.change_t[0])});
   }
   return largest;
 }

@@ -43,28 +43,28 @@ inline Vec2 tilted_gravity(const Scene& scene)
   return scene.gravity * Vec2(std::sin(slope), -std::cos(slope));
 }
 
-inline Simulation bed(const Scene& scene)
+inline Simulation<2> bed(const Scene& scene)
 {
-  auto simulation = deposit(scene);
+  auto simulation = deposit<2>(scene);
   simulation.tilt(tilted_gravity(scene));
   return simulation;
 }
 
-inline Checkpoint checkpoint_of(const Simulation& simulation, const Scene& scene)
+inline Checkpoint<2> checkpoint_of(const Simulation<2>& simulation, const Scene& scene)
 {
   const auto& world = simulation.world();
-  const StepTotals since_frame{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, {14, 1.0 / 3}};
+  const StepTotals since_frame{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, {14, 1.0 / 3, 0}};
   StepTotals totals;
   totals.largest_residual = 0.1;
-  return {to_text(scene),
-          "a test",
-          "first\nsecond",
-          world.grains,
+  return {{to_text(scene),
+           "a test",
+           "first\nsecond",
+           world.grains,
+           world.box,
+           1.0 / 7,
+           {3, 0xfedcba9876543210, {since_frame, totals}, 0.25, 1.5}},
           world.walls,
-          world.box,
-          1.0 / 7,
-          simulation.state(),
-          {3, 0xfedcba9876543210, {since_frame, totals}, 0.25, 1.5}};
+          simulation.state()};
 }
 
 }  // namespace grseg::small_chute

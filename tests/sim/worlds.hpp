@@ -15,7 +15,7 @@ struct Disc {
   bool fixed = false;
 };
 
-inline void add(World& world, const Disc& disc)
+inline void add(World<2>& world, const Disc& disc)
 {
   auto& g = world.grains;
   g.id.push_back(static_cast<std::int32_t>(g.size()));
@@ -26,9 +26,9 @@ inline void add(World& world, const Disc& disc)
 }
 
 /// World of discs without gravity, friction 0.5 and restitution 0, solved to 1e-12.
-inline World world_of(const std::vector<Disc>& discs)
+inline World<2> world_of(const std::vector<Disc>& discs)
 {
-  World world;
+  World<2> world;
   for (const auto& disc : discs) add(world, disc);
   world.box = {1000, 1000, false};
   world.material = {0.5, 0};
@@ -44,7 +44,7 @@ inline std::vector<Vec2> positions_of(const std::vector<Disc>& discs)
   return positions;
 }
 
-inline Wall floor_at(double y)
+inline Wall<2> floor_at(double y)
 {
   return {{0, y}, {0, 1}};
 }

@@ -166,7 +166,7 @@ def check_refusals():
     refused([merge, "map.tsv"], 3, "map.tsv: the table is a map (bins: xy)")
     os.mkdir("mine")
     refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
-    refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "holds no 000000.vti")
+    refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "contains no 000000.vti")
     assert sorted(os.listdir()) == ["flow.h5", "map", "map.pvd", "map.tsv", "micro.h5", "mine", "one.vti",
                                     "stress.h5"], os.listdir()
 

@@ -138,10 +138,10 @@ void all_of_run(const std::string& path, Content& content)
     content.add(departure.path + departure.what);
 }
 
-void checkpoint(const std::string& path, Content& content)
+template <int D>
+void add_checkpoint(const Checkpoint<D>& read, const std::string& path, Content& content)
 {
-  const auto read = read_checkpoint(path);
-  const auto scene = scene_of(read, path);
+  const auto scene = scene_of(read.scene, path);
   restored_simulation(read, scene, scene, {});
   content.add({read.scene, read.program, read.history});
   content.add(read.grains);
@@ -150,11 +150,16 @@ void checkpoint(const std::string& path, Content& content)
   content.add(read.state.position);
   content.add(read.state.image);
   content.add(read.state.velocity);
-  content.add(read.state.rim_speed);
+  content.add(read.state.rim);
   content.add(read.state.row);
   content.add(static_cast<double>(read.state.steps_done));
   content.add(fmt::format("{} {:x} {} {}", read.trajectory.frames, read.trajectory.digest,
                           read.trajectory.begin, read.trajectory.wall));
+}
+
+void checkpoint(const std::string& path, Content& content)
+{
+  std::visit([&](const auto& read) { add_checkpoint(read, path, content); }, read_checkpoint(path));
 }
 
 void table(const std::string& path, Content& content)

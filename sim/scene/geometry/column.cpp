@@ -19,7 +19,7 @@ void resolve_column(Scene& scene, const KeyGiven&)
 Boundaries column_boundaries(const Scene& scene)
 {
   auto all = base_and_sides(scene);
-  all.walls.push_back({{scene.column_width, 0}, {-1, 0}});  // the gate, the last wall
+  all.walls.push_back({{scene.column_width, 0, 0}, Vec3(-1, 0, 0)});  // the gate, the last wall
   return all;
 }
 
@@ -28,11 +28,9 @@ Room room_of_column(const Scene& scene, double)
   return {0, scene.column_width};
 }
 
-Simulation open_gate(const Simulation& deposited, const Scene&)
+void open_gate(Packing& packing, const Scene&)
 {
-  auto packing = packing_of(deposited);
-  packing.world.walls.pop_back();
-  return set_in_motion(packing, deposited);
+  packing.walls.pop_back();
 }
 
 }  // namespace

@@ -30,10 +30,12 @@ Boundaries ring_of_beads(const Scene& scene)
 {
   Boundaries all;
   const double radius = bead_radius(scene), ring = scene.drum_diameter / 2 + radius;
-  const long beads = std::lround(std::floor(std::numbers::pi / std::asin(radius / ring)));
+  long beads = std::lround(std::floor(std::numbers::pi / std::asin(radius / ring)));
+  if (scene.dimension == 3)  // even, so that lines interlock all around
+    beads = 2 * std::lround(std::ceil(std::numbers::pi * ring / bead_spacing(scene)));
   for (long k = 0; k < beads; ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(beads);
-    add_bead(all, scene, centre_of(scene) + ring * Vec2(std::sin(angle), -std::cos(angle)));
+    add_bead(all, scene, centre_of(scene) + ring * Vec2(std::sin(angle), -std::cos(angle)), k);
   }
   return all;
 }
@@ -47,7 +49,8 @@ Room room_in_drum(const Scene& scene, double y)
 
 double area_in_drum(const Scene& scene)
 {
-  return scene.fill * std::numbers::pi / 4 * scene.drum_diameter * scene.drum_diameter;
+  const double area = scene.fill * std::numbers::pi / 4 * scene.drum_diameter * scene.drum_diameter;
+  return scene.dimension == 3 ? area * scene.width : area;
 }
 
 std::vector<BoundaryBody> turning_ring(const Scene& scene, const Grains& grains)

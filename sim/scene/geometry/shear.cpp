@@ -8,29 +8,28 @@
 namespace grseg {
 namespace {
 
-/// Adds a row of beads that touches the highest grain.
-void add_plate(Packing& packing, const Scene& scene)
+/// Adds a row of beads that touches the highest grain; returns y of their centres, m.
+double add_plate(Packing& packing, const Scene& scene)
 {
   double top = 0;
   for (std::size_t g = 0; g < packing.position.size(); ++g)
-    top = std::max(top, packing.position[g].y() + packing.world.grains.radius[g]);
+    top = std::max(top, packing.position[g].y() + packing.grains.radius[g]);
   const double radius = bead_radius(scene);
-  for (const double x : row_of_beads(scene))
-    add_grain(packing, Species::boundary, radius, scene.density, {x, top + radius});
+  Boundaries plate;
+  long line = 0;
+  for (const double x : row_of_beads(scene)) add_bead(plate, scene, {x, top + radius}, line++);
+  for (const auto& at : plate.position)
+    add_grain(packing, Species::boundary, radius, scene.density, at);
+  return top + radius;
 }
 
-/// Adds the velocities of a steady flow of constant shear rate. Otherwise the start of the plate
-/// would send an impact through the grains.
-void add_shear_flow(Simulation& simulation, const Scene& scene)
+/// Adds the velocities of a steady flow with a constant shear rate; otherwise the impact of the
+/// plate would propagate through the grains. `height`: y of the plate's centres, m.
+void add_shear_flow(Packing& packing, const Scene& scene, double height)
 {
-  const auto& fixed = simulation.world().grains.fixed;
-  const double height = simulation.position(fixed.size() - 1).y();  // m, y of the plate
-  for (std::size_t g = 0; g < fixed.size(); ++g) {
-    if (fixed[g]) continue;
-    const double speed = scene.plate_speed * simulation.position(g).y() / height;
-    simulation.set_velocity(g, simulation.velocity(g) + Vec2(speed, 0),
-                            simulation.angular_velocity(g));
-  }
+  for (std::size_t g = 0; g < packing.position.size(); ++g)
+    if (!packing.grains.fixed[g])
+      packing.velocity[g].x() += scene.plate_speed * packing.position[g].y() / height;
 }
 
 void resolve_shear_cell(Scene& scene, const KeyGiven& given)
@@ -45,13 +44,10 @@ void resolve_shear_cell(Scene& scene, const KeyGiven& given)
   if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
 }
 
-Simulation begin_to_shear(const Simulation& deposited, const Scene& scene)
+void begin_to_shear(Packing& packing, const Scene& scene)
 {
-  auto packing = packing_of(deposited);
-  add_plate(packing, scene);
-  auto simulation = set_in_motion(packing, deposited);
-  add_shear_flow(simulation, scene);
-  return simulation;
+  const double height = add_plate(packing, scene);
+  add_shear_flow(packing, scene, height);
 }
 
 std::vector<BoundaryBody> upper_plate(const Scene& scene, const Grains& grains)
@@ -60,7 +56,7 @@ std::vector<BoundaryBody> upper_plate(const Scene& scene, const Grains& grains)
   plate.begin += (plate.end - plate.begin) / 2;  // the first half of the beads is the base
   plate.velocity = {scene.plate_speed, 0};
   plate.mass = scene.plate_mass;
-  plate.load = -scene.plate_pressure * scene.length;
+  plate.load = -scene.plate_pressure * base_area(scene);
   return {plate};
 }
 

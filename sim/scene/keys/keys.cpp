@@ -44,6 +44,15 @@ auto of_solver(T SolverSettings::*member)
   };
 }
 
+/// A key that scenes of discs do not have in their text.
+KeyValue in_space(KeyValue value)
+{
+  value.text = [text = value.text](const Scene& scene) {
+    return scene.dimension == 3 ? text(scene) : std::string();
+  };
+  return value;
+}
+
 constexpr long most = 1000000000;
 
 std::string set_by_accuracy(const char* help)
@@ -81,6 +90,13 @@ std::vector<SceneKey> bed_keys()
      "height of the deposited bed, within 2 %"},
     {"length", "35dL", length(&Scene::length, "4dL", "1e6dL"), bed, no,
      "length of the cell along x"},
+    {"dimension", "2", in_space(choice(&Scene::dimension, Words<int>{{"2", 2}, {"3", 3}})), bed, no,
+     "2: discs; 3: spheres, with densities in kg/m^3 and pressures in Pa"},
+    {"width", "10dL", in_space(length(&Scene::width, "4dL", "1e6dL")), bed, no,
+     "width of the cell along z, in three dimensions"},
+    {"sides", "periodic", in_space(choice(&Scene::sides, Words<Scene::Lateral>{
+         {"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}})), bed, no,
+     "sides of the cell along z, in three dimensions"},
   };
 }
 

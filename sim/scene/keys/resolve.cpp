@@ -2,6 +2,7 @@
 #include "sim/scene/base_row.hpp"
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
+#include "sim/scene/packing.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 namespace grseg {
 namespace {
@@ -52,6 +54,12 @@ void read_keys(const po::variables_map& values, Scene& scene)
 
 double mass_of_plate(const Scene& scene)
 {
+  if (scene.dimension == 3) {
+    Boundaries plate;
+    for (const double x : row_of_beads(scene)) add_bead(plate, scene, {x, 0});
+    return static_cast<double>(plate.position.size()) * scene.density *
+           nominal_volume(scene, scene.large_diameter);
+  }
   const double beads = std::floor(scene.length / scene.large_diameter + 1e-9);
   return beads * scene.density * std::numbers::pi / 4 * scene.large_diameter * scene.large_diameter;
 }
@@ -98,11 +106,12 @@ int more_sweeps(const Scene& scene)
   double contrast = 1;
   const bool two_species =
       scene.large_grains ? *scene.large_grains > 0 : scene.phi_large > 0 && scene.phi_large < 1;
-  const double masses = scene.density_ratio * scene.size_ratio * scene.size_ratio;
+  double masses = scene.density_ratio * scene.size_ratio * scene.size_ratio;
+  if (scene.dimension == 3) masses *= scene.size_ratio;
   if (two_species) contrast = std::max(masses / heaviest_large, 1 / masses);
   if (scene.geometry->has_free_body) {
-    const double small = scene.density * std::numbers::pi / 4 * std::pow(scene.small_diameter, 2);
-    const double under_it = scene.length / scene.small_diameter;
+    const double small = scene.density * nominal_volume(scene, scene.small_diameter);
+    const double under_it = base_area(scene) / std::pow(scene.small_diameter, scene.dimension - 1);
     contrast = std::max(contrast, scene.plate_mass / (under_it * small) / heaviest_plate);
   }
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(contrast)), 1.0, most_sweeps_factor));
@@ -154,7 +163,7 @@ void check_frames(const Scene& scene)
 void check_plate(const Scene& scene)
 {
   if (!scene.geometry->has_free_body) return;
-  const double load = scene.plate_pressure * scene.length;
+  const double load = scene.plate_pressure * base_area(scene);
   const double way = load / scene.plate_mass * scene.step * scene.step / scene.small_diameter;
   require(way <= farthest_by_load, "plate-mass",
           fmt::format("plate-mass is {:.3g} kg: plate-pressure would move the plate by {:.2g} d_S "
@@ -172,6 +181,16 @@ void check_turning(const Scene& scene)
                       turn, largest_turn));
 }
 
+/// Spheres have a base of interlocked lines of touching large grains, or a wall.
+void check_base_of_spheres(const Scene& scene, const KeyGiven& given)
+{
+  for (const auto& key : scene_keys())
+    require(std::string_view(key.name).substr(0, 5) != "base-" || !given(key.name), key.name,
+            fmt::format("{} shapes a base of discs; leave it out in three dimensions", key.name));
+  require(scene.width >= 4 * scene.large_diameter, "width",
+          "width is below 4 d_L: grains would meet their own images; choose a wider cell");
+}
+
 }  // namespace
 
 Scene resolve_scene(const po::variables_map& values)
@@ -182,7 +201,10 @@ Scene resolve_scene(const po::variables_map& values)
   Scene scene;
   read_keys(values, scene);
   if (scene.geometry->resolve) scene.geometry->resolve(scene, given);
-  resolve_base_row(scene, given);
+  if (scene.dimension == 2)
+    resolve_base_row(scene, given);
+  else
+    check_base_of_spheres(scene, given);
   if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
   if (!given("contact-law") && scene.restitution > most_speculative_restitution)
     scene.law = ContactLaw::centred;

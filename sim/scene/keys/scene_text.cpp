@@ -134,8 +134,9 @@ Parameters to_parameters(const Scene& scene)
     else
       parameters.texts[name] = key.value.text(scene);
   }
-  const auto gravity = gravity_of(scene).start;
-  parameters.numbers["gravity"] = {gravity.x(), gravity.y()};
+  const auto gravity = gravity_of<2>(scene).start;
+  auto& numbers = parameters.numbers["gravity"] = {gravity.x(), gravity.y()};
+  if (scene.dimension == 3) numbers.push_back(0);
   parameters.numbers["large_diameter"] = {scene.large_diameter};
   parameters.numbers["contact_margin"] = {law_parameters(scene).margin};
   parameters.texts["scene"] = to_text(scene);

@@ -17,7 +17,7 @@ std::vector<Vec2> lattice(int count)
 TEST(CellGrid, TheNumberOfStripsIsEvenIfXIsPeriodic)
 {
   for (const bool periodic : {true, false}) {
-    CellGrid grid({5300, 10, periodic}, 1.2, 1);
+    CellGrid<2> grid({5300, 10, periodic}, 1.2, 1);
     grid.sort(lattice(53000));
     EXPECT_EQ(grid.strips(), periodic ? 14u : 15u);
   }
@@ -25,14 +25,14 @@ TEST(CellGrid, TheNumberOfStripsIsEvenIfXIsPeriodic)
 
 TEST(CellGrid, ASmallSceneIsOneStrip)
 {
-  CellGrid grid({900, 10, true}, 1.2, 1);
+  CellGrid<2> grid({900, 10, true}, 1.2, 1);
   grid.sort(lattice(9000));
   EXPECT_EQ(grid.strips(), 1u);
 }
 
 TEST(CellGrid, NoStripIsNarrowerThanFourColumns)
 {
-  CellGrid grid({10, 5000, true}, 1.2, 1);  // eight columns
+  CellGrid<2> grid({10, 5000, true}, 1.2, 1);  // eight columns
   auto tall = lattice(80000);
   for (auto& x : tall) std::swap(x.x(), x.y());
   grid.sort(tall);
@@ -44,7 +44,7 @@ TEST(CellGrid, NoStripIsNarrowerThanFourColumns)
 TEST(CellGrid, ABodyThatHasFlownFarAwayAddsFewCells)
 {
   for (const Vec2& far : {Vec2(1e9, 0), Vec2(0, 1e9), Vec2(-1e9, 1e9)}) {
-    CellGrid grid({100, 10, false}, 1.2, 1);
+    CellGrid<2> grid({100, 10, false}, 1.2, 1);
     auto position = lattice(1000);
     position[500] = far;
     grid.sort(position);
@@ -55,7 +55,7 @@ TEST(CellGrid, ABodyThatHasFlownFarAwayAddsFewCells)
 TEST(CellGrid, SortsEveryBodyIntoItsCellStripByStrip)
 {
   const auto position = lattice(50000);
-  CellGrid grid({5000, 10, true}, 1.2, 2);
+  CellGrid<2> grid({5000, 10, true}, 1.2, 2);
   grid.sort(position);
   const auto& order = grid.order();
   std::vector<int> seen(position.size());
@@ -64,7 +64,7 @@ TEST(CellGrid, SortsEveryBodyIntoItsCellStripByStrip)
     EXPECT_EQ(grid.bodies_of_strip(s).begin, end);
     for (std::int32_t band = 0; band < grid.bands(); ++band) {
       for (auto c = grid.first_column(s); c < grid.first_column(s + 1); ++c) {
-        const auto bodies = grid.bodies(c, c, band);
+        const auto bodies = grid.bodies(c, c, band, 0);
         EXPECT_EQ(bodies.begin, end);
         end = bodies.end;
         for (auto b = bodies.begin; b < bodies.end; ++b) {

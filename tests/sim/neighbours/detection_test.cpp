@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -24,7 +25,7 @@ namespace {
 namespace law = HWY_NAMESPACE;
 
 struct Bed {
-  World world;
+  World<2> world;
   std::vector<Vec2> position, velocity;
 };
 
@@ -65,9 +66,9 @@ Bed bed_of(double length, double height, bool periodic, std::size_t flying)
   return bed;
 }
 
-Simulation simulation_of(const Bed& bed)
+Simulation<2> simulation_of(const Bed& bed)
 {
-  Simulation simulation(bed.world, bed.position);
+  Simulation<2> simulation(bed.world, bed.position);
   for (std::size_t g = 0; g < bed.velocity.size(); ++g)
     simulation.set_velocity(g, bed.velocity[g], 1);
   return simulation;
@@ -76,7 +77,7 @@ Simulation simulation_of(const Bed& bed)
 using Gaps = std::map<std::pair<int, int>, double>;
 
 /// Gap between grain i and grain or wall j.
-double gap_of(const World& world, const std::vector<Vec2>& position, int i, int j)
+double gap_of(const World<2>& world, const std::vector<Vec2>& position, int i, int j)
 {
   const auto a = static_cast<std::size_t>(i);
   const double radius = world.grains.radius[a];
@@ -93,7 +94,7 @@ double gap_of(const World& world, const std::vector<Vec2>& position, int i, int 
 
 /// Gaps up to `limit` at `position`, of all pairs that are not too far apart along x; grains are
 /// named as in a frame.
-Gaps gaps_by_brute_force(const World& world, const std::vector<Vec2>& position, double limit)
+Gaps gaps_by_brute_force(const World<2>& world, const std::vector<Vec2>& position, double limit)
 {
   Gaps gaps;
   const auto& grains = world.grains;
@@ -272,27 +273,27 @@ TEST(Detection, AnyNumberOfThreadsGivesTheSameBytes)
 
 /// A pair list, the state for which it was sorted, and the request of the step.
 struct Prepared {
-  GrainState state;
-  PairList list;
-  std::vector<Wall> walls;
-  DetectionRule rule;
+  GrainState<2> state;
+  PairList<2> list;
+  std::vector<Wall<2>> walls;
+  DetectionRule<2> rule;
 
   /// Grains are larger than in the bed; with 15 %, most touch.
   explicit Prepared(const Bed& bed, double growth = 1.15)
-      : state(make_state(bed.world.grains, bed.position)),
+      : state(make_state<2>(bed.world.grains, bed.position)),
         list(bed.world.walls, bed.world.box, growth * 0.55, 0.3),
         walls(bed.world.walls)
   {
     for (std::size_t g = 0; g < bed.position.size(); ++g) {
-      state.motion[g].vx = bed.velocity[g].x();
-      state.motion[g].vy = bed.velocity[g].y();
+      state.motion[g].v[0] = bed.velocity[g].x();
+      state.motion[g].v[1] = bed.velocity[g].y();
       state.radius[g] *= growth;
     }
     list.renew(state, state.position);
     for (std::size_t k = 0; k < list.pairs().size(); ++k)
       if (list.pairs().listed(k)) {
         const double load = (k % 2 == 0 ? 0.01 : 1) * static_cast<double>(1 + k);
-        list.memories()[k] = {load, 0.5 - static_cast<double>(k % 7), 0, 0};
+        list.memories()[k] = {load, {0.5 - static_cast<double>(k % 7)}};
       }
     rule.ahead = rule.middle = state.position;
     rule.motion = state.motion;
@@ -309,7 +310,7 @@ void append(Bits& bits, double x)
   bits.push_back(std::bit_cast<std::uint64_t>(x));
 }
 
-Bits bits_of(const StripContacts& contacts, const DetectionSums& sums)
+Bits bits_of(const StripContacts<2>& contacts, const DetectionSums& sums)
 {
   Bits bits{contacts.size, contacts.count, contacts.on_base, sums.touching};
   for (const double x : {sums.overlap, sums.largest_overlap, sums.fastest_approach})
@@ -317,8 +318,8 @@ Bits bits_of(const StripContacts& contacts, const DetectionSums& sums)
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
     for (const auto* lanes :
-         {&block.nx, &block.ny, &block.kappa, &block.mass_n, &block.mass_t, &block.rebound,
-          &block.impulse_n, &block.impulse_t, &contacts.origins[b].gap})
+         {&block.n[0], &block.n[1], &block.kappa, &block.mass_n, &block.mass_t, &block.rebound,
+          &block.impulse_n, &block.impulse_t[0], &contacts.origins[b].gap})
       for (const double x : *lanes) append(bits, x);
     for (std::size_t lane = 0; lane < block_lanes; ++lane)
       for (const auto number : {block.i[lane], block.j[lane], contacts.origins[b].pair[lane]})
@@ -329,7 +330,7 @@ Bits bits_of(const StripContacts& contacts, const DetectionSums& sums)
 
 Bits found(Prepared& p)
 {
-  std::vector<StripContacts> contacts;
+  std::vector<StripContacts<2>> contacts;
   const auto sums = find_contacts(p.list.pairs(), p.rule, contacts);
   return bits_of(contacts.at(0), sums);
 }
@@ -359,41 +360,43 @@ TEST_P(DetectionOn, GivesTheBytesOfTheBestInstructionSet)
 struct PairInWords {
   bool acts;
   double separation, gap, load, remembered;
-  Contact contact;
+  Contact<2> contact;
 };
 
 /// Computed in the law's own order of operations, so that bits can be compared.
-PairInWords in_words(const Prepared& p, const Pairs::Class& c, std::size_t k)
+PairInWords in_words(const Prepared& p, const PairClass& c, std::size_t k)
 {
   const auto& pairs = p.list.pairs();
   const std::size_t i = pairs.i[k] / 2, j = pairs.j[k] / 2;
   const auto &a = p.state.motion[i], &b = p.state.motion[j];
   const double reach = pairs.geometry[k].reach, shift = pairs.geometry[k].shift;
   PairInWords pair{};
-  law::Normal<double> n{};
+  law::Normal<2, double> n{};
+  const auto along = [](const Vec2& x) { return std::array{x.x(), x.y()}; };
   if (c.wall < 0) {
     const auto apart = [&](std::span<const Vec2> x) {
       return Vec2(x[i].x() - x[j].x() + shift, x[i].y() - x[j].y());
     };
     const Vec2 then = apart(p.rule.ahead), now = apart(p.rule.middle);
-    pair.acts = law::acts(then.x(), then.y(), reach, p.rule.margin);
-    n = law::normal_of_discs(now.x(), now.y(), true);
+    pair.acts = law::acts(along(then), reach, p.rule.margin);
+    n = law::normal_of_grains(along(now), true);
     pair.contact.kappa = n.distance * (1 / reach);
   } else {
     const auto& wall = p.walls[static_cast<std::size_t>(c.wall)];
     const Vec2 then = p.rule.ahead[i] - wall.point, now = p.rule.middle[i] - wall.point;
     pair.acts = law::acts_on_wall(then.dot(wall.normal), reach, p.rule.margin);
-    n = law::normal_of_wall(now.x(), now.y(), wall.normal.x(), wall.normal.y());
+    n = law::normal_of_wall(along(now), along(wall.normal));
     pair.contact.kappa = 1;
   }
   pair.gap = n.distance - reach;
-  pair.separation = (a.vx - b.vx) * n.nx + (a.vy - b.vy) * n.ny;
-  pair.contact.nx = n.nx;
-  pair.contact.ny = n.ny;
+  pair.separation = (a.v[0] - b.v[0]) * n.n[0] + (a.v[1] - b.v[1]) * n.n[1];
+  pair.contact.n[0] = n.n[0];
+  pair.contact.n[1] = n.n[1];
   pair.contact.mass_n = law::normal_mass(a.inverse_mass + b.inverse_mass, true);
-  pair.contact.mass_t = law::tangential_mass(pair.contact.mass_n, pair.contact.kappa);
+  pair.contact.mass_t =
+      law::tangential_mass(pair.contact.mass_n, pair.contact.kappa, rim_factor<2>);
   pair.contact.impulse_n = pairs.memory[k].n;
-  pair.contact.impulse_t = pairs.memory[k].t;
+  pair.contact.impulse_t[0] = pairs.memory[k].t[0];
   pair.load = pairs.memory[k].n * (a.inverse_mass + b.inverse_mass);
   const auto rebound_of = p.rule.horizon > 0 ? law::rebound_of<true, true, double>
                                              : law::rebound_of<true, false, double>;
@@ -408,19 +411,20 @@ Bits bits_of(const PairInWords& pair, bool with_memory)
 {
   Bits bits;
   const auto& c = pair.contact;
-  for (const double x : {c.nx, c.ny, c.kappa, c.mass_n, c.mass_t, c.rebound, c.impulse_n,
-                         c.impulse_t, pair.gap, with_memory ? pair.remembered : 0})
+  for (const double x : {c.n[0], c.n[1], c.kappa, c.mass_n, c.mass_t, c.rebound, c.impulse_n,
+                         c.impulse_t[0], pair.gap, with_memory ? pair.remembered : 0})
     append(bits, x);
   return bits;
 }
 
-Bits bits_of(const StripContacts& contacts, std::size_t block, std::size_t lane, bool with_memory)
+Bits bits_of(const StripContacts<2>& contacts, std::size_t block, std::size_t lane,
+             bool with_memory)
 {
   Bits bits;
   const auto& c = contacts.blocks[block];
   const auto& origin = contacts.origins[block];
-  for (const auto* lanes : {&c.nx, &c.ny, &c.kappa, &c.mass_n, &c.mass_t, &c.rebound, &c.impulse_n,
-                            &c.impulse_t, &origin.gap})
+  for (const auto* lanes : {&c.n[0], &c.n[1], &c.kappa, &c.mass_n, &c.mass_t, &c.rebound,
+                            &c.impulse_n, &c.impulse_t[0], &origin.gap})
     append(bits, (*lanes)[lane]);
   append(bits, with_memory ? origin.approach[lane] : 0);
   return bits;
@@ -436,7 +440,7 @@ struct Seen {
 void expect_the_law_in_words(const Prepared& p, Seen& seen)
 {
   const bool with_memory = p.rule.horizon > 0;
-  std::vector<StripContacts> strips;
+  std::vector<StripContacts<2>> strips;
   const auto sums = find_contacts(p.list.pairs(), p.rule, strips);
   const auto& contacts = strips.at(0);
   const auto& pairs = p.list.pairs();
@@ -503,7 +507,7 @@ TEST_P(DetectionOn, PairsStillApartAreSlowedDownAsTheLawInWordsSaysToTheLastBit)
     p.rule.margin = 0.05;
     std::vector<Vec2> then(p.state.position);
     for (std::size_t b = 0; b < then.size(); ++b)
-      then[b] += p.rule.horizon * Vec2(p.state.motion[b].vx, p.state.motion[b].vy);
+      then[b] += p.rule.horizon * Vec2(p.state.motion[b].v[0], p.state.motion[b].v[1]);
     p.rule.ahead = then;
     // New pairs, pairs that were slowed down in the step before, and pairs that have had a load for long.
     for (std::size_t k = 0; k < p.list.pairs().size(); ++k) {
@@ -538,7 +542,7 @@ TEST_P(DetectionOn, AnEffectLeftOutEqualsItsNeutralCoefficientToTheLastBit)
 TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
 {
   Prepared p(bed_of(20, 10, false, 0));
-  std::vector<StripContacts> strips;
+  std::vector<StripContacts<2>> strips;
   find_contacts(p.list.pairs(), p.rule, strips);
   auto& contacts = strips.at(0);
   double n = 0, gap = 0;
@@ -550,15 +554,15 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
       if (contacts.origins[b].entry(lane) == p.list.pairs().size()) continue;
       n = static_cast<double>((b + lane) % 3);
       block.impulse_n[lane] = n;
-      block.impulse_t[lane] = -n / 2;
+      block.impulse_t[0][lane] = -n / 2;
       bearing += n > 0;
       gap += n > 0 ? std::abs(contacts.origins[b].gap[lane]) : 0;
       if (b < contacts.on_base) continue;
-      const Vec2 normal{block.nx[lane], block.ny[lane]}, tangent{-normal.y(), normal.x()};
+      const Vec2 normal{block.n[0][lane], block.n[1][lane]}, tangent{-normal.y(), normal.x()};
       base += n * normal - n / 2 * tangent;
     }
   }
-  const auto sums = keep_impulses(strips, p.list.memories());
+  const auto sums = keep_impulses<2>(strips, p.list.memories());
   EXPECT_EQ(sums.force_bearing, bearing);
   EXPECT_NEAR(sums.gap_bearing, gap, 1e-12);
   EXPECT_NEAR((sums.on_base_side - base).norm(), 0, 1e-12);
@@ -567,7 +571,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
       const auto& impulse = p.list.pairs().memory[contacts.origins[b].entry(lane)];
       EXPECT_EQ(impulse.n, kept[b].impulse_n[lane]);
-      EXPECT_EQ(impulse.t, kept[b].impulse_t[lane]);
+      EXPECT_EQ(impulse.t[0], kept[b].impulse_t[0][lane]);
     }
   // Pairs must now overlap to act: fewer do, and only these keep their impulses.
   const auto before = contacts.origins;
@@ -578,13 +582,13 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   for (std::size_t b = 0; b < contacts.size; ++b)
     acting.insert(contacts.origins[b].pair.begin(), contacts.origins[b].pair.end());
   const auto had = p.list.pairs().memory;
-  forget_impulses(p.list.pairs(), strips, p.list.memories());
+  forget_impulses<2>(p.list.pairs(), strips, p.list.memories());
   std::size_t gone = 0;
   for (std::size_t b = 0; b < size; ++b)
     for (const auto pair : before[b].pair) {
       const auto& impulse = p.list.pairs().memory[pair / 4];
       EXPECT_EQ(impulse.n, acting.contains(pair) ? had[pair / 4].n : 0);
-      EXPECT_EQ(impulse.t, acting.contains(pair) ? had[pair / 4].t : 0);
+      EXPECT_EQ(impulse.t[0], acting.contains(pair) ? had[pair / 4].t[0] : 0);
       gone += acting.contains(pair) ? 0 : 1;
     }
   EXPECT_GT(gone, size);

@@ -17,12 +17,12 @@ using Named = std::set<std::pair<int, int>>;
 
 /// Grains at rest in the form that the list needs, and their current positions.
 struct Listed {
-  GrainState state;
-  PairList list;
+  GrainState<2> state;
+  PairList<2> list;
 
-  Listed(const World& world, const std::vector<Vec2>& at, const std::vector<Wall>& walls,
+  Listed(const World<2>& world, const std::vector<Vec2>& at, const std::vector<Wall<2>>& walls,
          double skin, double margin = 0)
-      : state(make_state(world.grains, at)),
+      : state(make_state<2>(world.grains, at)),
         list(walls, world.box,
              *std::max_element(world.grains.radius.begin(), world.grains.radius.end()), skin,
              margin)
@@ -66,7 +66,7 @@ struct Listed {
 
 /// Discs of two sizes scattered over a strip; they cover 40 % of its area.
 struct Scattered {
-  World world;
+  World<2> world;
   std::vector<Vec2> position;
   gsl_rng* random = gsl_rng_alloc(gsl_rng_mt19937);
 
@@ -178,7 +178,7 @@ TEST(PairList, HoldsEveryPairWhenAGrainHasFlownFarAway)
 
 TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
 {
-  World world;
+  World<2> world;
   for (const double x : {0.0, 1.0, 2.0}) worlds::add(world, {{x, 0}, 0.5});
   world.box = {100, 100, false};
   std::vector<Vec2> position{{0, 0}, {1, 0}, {2, 0}};
@@ -186,20 +186,19 @@ TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 2u);
   for (const auto& pair : list.pairs())
-    list.list.memories()[pair.entry] =
-        pair.i == 0 ? Pairs::Memory{3, -1, 0, 0} : Pairs::Memory{4, 1, 0, 0};
+    list.list.memories()[pair.entry] = pair.i == 0 ? PairMemory<2>{3, {-1}} : PairMemory<2>{4, {1}};
   position[2].x() = 5;  // the contact of the second pair ends
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 1u);
   const auto impulse = list.list.memories()[list.pairs()[0].entry];
   EXPECT_EQ(impulse.n, 3);
-  EXPECT_EQ(impulse.t, -1);
+  EXPECT_EQ(impulse.t[0], -1);
 }
 
 TEST(PairList, EveryPairOfABedKeepsItsOwnImpulseThroughARenewal)
 {
   // Every pair of a full bed, also across the period and at a wall, keeps its own impulse.
-  World world;
+  World<2> world;
   std::vector<Vec2> position;
   for (int row = 0; row < 12; ++row)
     for (int k = 0; k < 20; ++k) {
@@ -211,7 +210,7 @@ TEST(PairList, EveryPairOfABedKeepsItsOwnImpulseThroughARenewal)
   list.renew(position);
   const auto own = [](const Listed::Pair& pair) {
     const double n = 1.0 + std::min(pair.i, pair.j) + 1000 * std::max(pair.i, pair.j);
-    return Pairs::Memory{n, 1.0 + pair.i * pair.j, -n, 0};
+    return PairMemory<2>{n, {1.0 + pair.i * pair.j}, -n};
   };
   const auto before = list.pairs();
   EXPECT_EQ(before.size(), 12u * 20 - 20 + 11 * 20 + 20);
@@ -228,11 +227,11 @@ TEST(PairList, EveryPairOfABedKeepsItsOwnImpulseThroughARenewal)
 
 TEST(PairList, HoldsGrainsNearAWallAndNeedsANewListWhenAnotherComesNear)
 {
-  World world;
+  World<2> world;
   worlds::add(world, {{0, 0.55}, 0.5});
   worlds::add(world, {{5, 3}, 0.5});
   world.box = {100, 100, false};
-  const std::vector<Wall> walls{worlds::floor_at(0)};
+  const std::vector<Wall<2>> walls{worlds::floor_at(0)};
   std::vector<Vec2> position{{0, 0.55}, {5, 3}};
   Listed list(world, position, walls, 0.1);
   list.renew(position);
@@ -245,7 +244,7 @@ TEST(PairList, HoldsGrainsNearAWallAndNeedsANewListWhenAnotherComesNear)
 TEST(PairList, LayersThatSlideOverEachOtherNeedANewList)
 {
   // d_max + skin = 1.2: y = 0 and y = 1.25 are in neighbouring bands, each of which moves as a whole.
-  World world;
+  World<2> world;
   std::vector<Vec2> position;
   for (const double y : {0.0, 1.25})
     for (const double x : {0.0, 2.0, 4.0}) {
@@ -263,7 +262,7 @@ TEST(PairList, LayersThatSlideOverEachOtherNeedANewList)
 
 TEST(PairList, HoldsEveryPairOnceInACellOfTwoColumns)
 {
-  World world;
+  World<2> world;
   std::vector<Vec2> position{{1, 1}, {1.9, 1}, {3.4, 1}};
   for (const auto& x : position) worlds::add(world, {x, 0.5});
   worlds::add(world, {{4.4, 3}, 0.5});
@@ -281,7 +280,7 @@ TEST(PairList, HoldsEveryPairOnceInACellOfTwoColumns)
 /// disc has moved from `from` to `to`; the first one stays at (0, 0).
 bool complete_after(const Vec2& from, const Vec2& to, double margin = 0)
 {
-  World world;
+  World<2> world;
   std::vector<Vec2> position{{0, 0}, from};
   for (const auto& x : position) worlds::add(world, {x, 0.5});
   world.box = {100, 100, false};
@@ -314,7 +313,7 @@ TEST(PairList, GrainsOfDistantGroupsNeedANewListWhenTheyCouldMeet)
 
 TEST(PairList, ALoneGrainThatFallsToAWallNeedsANewList)
 {
-  World world;
+  World<2> world;
   worlds::add(world, {{5, 3}, 0.5});
   world.box = {100, 100, false};
   std::vector<Vec2> position{{5, 3}};

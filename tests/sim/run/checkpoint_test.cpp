@@ -7,6 +7,7 @@
 #include "sim/run/run_files.hpp"
 #include "tests/sim/small_chute.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -65,7 +66,7 @@ class CheckpointFile : public testing::Test {
     }
     return "no complaint";
   }
-  Checkpoint written;
+  Checkpoint<2> written;
 };
 
 std::vector<double> numbers_of(const StepTotals& t)
@@ -97,7 +98,7 @@ TEST_F(CheckpointFile, HasNoTimeOfDay)
 
 TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
 {
-  const auto read = read_checkpoint(path);
+  const auto read = std::get<Checkpoint<2>>(read_checkpoint(path));
   EXPECT_EQ(read.scene, written.scene);
   EXPECT_EQ(read.program, "a test");
   EXPECT_EQ(read.history, "first\nsecond");
@@ -115,7 +116,7 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.state.position, written.state.position);
   EXPECT_EQ(read.state.image, written.state.image);
   EXPECT_EQ(read.state.velocity, written.state.velocity);
-  EXPECT_EQ(read.state.rim_speed, written.state.rim_speed);
+  EXPECT_EQ(read.state.rim, written.state.rim);
   EXPECT_EQ(read.state.row, written.state.row);
   EXPECT_EQ(read.state.steps_done, 50);
   EXPECT_EQ(read.state.pairs.made_at, written.state.pairs.made_at);
@@ -190,8 +191,8 @@ TEST_F(CheckpointFile, TheOneBeforeIsKept)
   for (const std::int64_t step : {51, 52, 53}) {
     written.state.steps_done = step;
     write_checkpoint(path, written);
-    EXPECT_EQ(read_checkpoint(path).state.steps_done, step);
-    EXPECT_EQ(read_checkpoint(previous).state.steps_done, step - 1);
+    EXPECT_EQ(std::get<Checkpoint<2>>(read_checkpoint(path)).state.steps_done, step);
+    EXPECT_EQ(std::get<Checkpoint<2>>(read_checkpoint(previous)).state.steps_done, step - 1);
   }
 }
 
@@ -203,8 +204,8 @@ TEST_F(CheckpointFile, ADamagedOneDoesNotReplaceTheOneBefore)
                              " is the previous checkpoint");
   written.state.steps_done = 51;
   write_checkpoint(path, written);
-  EXPECT_EQ(read_checkpoint(path).state.steps_done, 51);
-  EXPECT_EQ(read_checkpoint(previous).state.steps_done, 50);
+  EXPECT_EQ(std::get<Checkpoint<2>>(read_checkpoint(path)).state.steps_done, 51);
+  EXPECT_EQ(std::get<Checkpoint<2>>(read_checkpoint(previous)).state.steps_done, 50);
 }
 
 TEST_F(CheckpointFile, WhereItIsMissingTheOneBeforeIsNamed)
@@ -228,7 +229,7 @@ TEST(PreviousCheckpoint, IsNamedBeforeTheExtension)
 /// A forged checkpoint with a matching digest: the change, and the expected message.
 struct Forgery {
   std::string complaint;
-  std::function<void(Checkpoint&)> forge;
+  std::function<void(Checkpoint<2>&)> forge;
 };
 
 class ForgedCheckpoint : public CheckpointFile, public testing::WithParamInterface<Forgery> {};
@@ -254,72 +255,73 @@ INSTANTIATE_TEST_SUITE_P(
     EveryEntry, ForgedCheckpoint,
     testing::Values(
         Forgery{"/state/steps_done is -4611686018427387904, and the run has 375000 steps",
-                [](Checkpoint& c) { c.state.steps_done = -(std::int64_t{1} << 62); }},
+                [](Checkpoint<2>& c) { c.state.steps_done = -(std::int64_t{1} << 62); }},
         Forgery{"/state/steps_done is 375001, and the run has 375000 steps",
-                [](Checkpoint& c) { c.state.steps_done = 375'001; }},
+                [](Checkpoint<2>& c) { c.state.steps_done = 375'001; }},
         Forgery{"/state/row, entry 3, is not the row of a grain",
-                [](Checkpoint& c) { c.state.row[3] = 1'000'000; }},
+                [](Checkpoint<2>& c) { c.state.row[3] = 1'000'000; }},
         Forgery{"/state/row, entry 0, is not the row of a grain",
-                [](Checkpoint& c) { c.state.row[0] = -1; }},
-        Forgery{"/state/row has 0 twice",
-                [](Checkpoint& c) { *std::find(c.state.row.begin(), c.state.row.end(), 1) = 0; }},
+                [](Checkpoint<2>& c) { c.state.row[0] = -1; }},
+        Forgery{
+            "/state/row has 0 twice",
+            [](Checkpoint<2>& c) { *std::find(c.state.row.begin(), c.state.row.end(), 1) = 0; }},
         Forgery{"/state/row has {fewer} entries for {grains} grains",
-                [](Checkpoint& c) { c.state.row.pop_back(); }},
+                [](Checkpoint<2>& c) { c.state.row.pop_back(); }},
         Forgery{"/grains/species, entry 2, is not -1, 0 or 1",
-                [](Checkpoint& c) { c.grains.species[2] = static_cast<Species>(77); }},
+                [](Checkpoint<2>& c) { c.grains.species[2] = static_cast<Species>(77); }},
         Forgery{"/grains/id has 5 twice",
-                [](Checkpoint& c) { c.grains.id[1] = c.grains.id[2] = 5, c.grains.id[5] = -1; }},
+                [](Checkpoint<2>& c) { c.grains.id[1] = c.grains.id[2] = 5, c.grains.id[5] = -1; }},
         Forgery{"/grains/fixed, entry 1, is not 0 or 1",
-                [](Checkpoint& c) { c.grains.fixed[1] = 2; }},
+                [](Checkpoint<2>& c) { c.grains.fixed[1] = 2; }},
         Forgery{"/grains/radius, entry 0, is not a positive number",
-                [](Checkpoint& c) { c.grains.radius[0] = 0; }},
+                [](Checkpoint<2>& c) { c.grains.radius[0] = 0; }},
         Forgery{
             "/grains/radius, entry 0, is larger than the diameters of large grains and base grains",
-            [](Checkpoint& c) { c.grains.radius[0] = 1e6; }},
+            [](Checkpoint<2>& c) { c.grains.radius[0] = 1e6; }},
         Forgery{"/grains/mass, entry 1, is not a positive number",
-                [](Checkpoint& c) { c.grains.mass[1] = -1; }},
+                [](Checkpoint<2>& c) { c.grains.mass[1] = -1; }},
         Forgery{"/walls, entry 0, is not a point and a normal of length 1",
-                [](Checkpoint& c) { c.walls[0].normal *= 2; }},
+                [](Checkpoint<2>& c) { c.walls[0].normal *= 2; }},
         Forgery{"/box/length_x is not a positive number",
-                [](Checkpoint& c) {
+                [](Checkpoint<2>& c) {
                   c.box = {0, 1, true};
                 }},
         Forgery{"/box/length_y is not a finite number",
-                [](Checkpoint& c) { c.box.length_y = no_number; }},
+                [](Checkpoint<2>& c) { c.box.length_y = no_number; }},
         Forgery{"/deposited_height is not a finite number",
-                [](Checkpoint& c) { c.deposited_height = infinite; }},
+                [](Checkpoint<2>& c) { c.deposited_height = infinite; }},
         Forgery{"/state/position, entry 4, is not a finite number",
-                [](Checkpoint& c) { c.state.position[4].y() = no_number; }},
+                [](Checkpoint<2>& c) { c.state.position[4].y() = no_number; }},
         Forgery{"/state/position, entry 4, is farther than 1e12 d_S from the origin",
-                [](Checkpoint& c) { c.state.position[4].x() = 1e300; }},
+                [](Checkpoint<2>& c) { c.state.position[4].x() = 1e300; }},
         Forgery{"/state/velocity, entry 0, is not a finite number",
-                [](Checkpoint& c) { c.state.velocity[0].x() = infinite; }},
+                [](Checkpoint<2>& c) { c.state.velocity[0].x() = infinite; }},
         Forgery{"/state/rim_speed, entry 0, is not a finite number",
-                [](Checkpoint& c) { c.state.rim_speed[0] = no_number; }},
+                [](Checkpoint<2>& c) { c.state.rim[0][0] = no_number; }},
         Forgery{"/state/image, entry 0, is not a number of periods from -1e9 to 1e9",
-                [](Checkpoint& c) { c.state.image[0] = std::numeric_limits<int>::min(); }},
+                [](Checkpoint<2>& c) { c.state.image[0][0] = std::numeric_limits<int>::min(); }},
         Forgery{"/state/pairs/i, entry 0, is not a grain",
-                [](Checkpoint& c) { c.state.pairs.i[0] = 4'000'000'000; }},
+                [](Checkpoint<2>& c) { c.state.pairs.i[0] = 4'000'000'000; }},
         Forgery{"/state/pairs/j, entry 0, is not a grain",
-                [](Checkpoint& c) { c.state.pairs.j[0] = 1; }},
+                [](Checkpoint<2>& c) { c.state.pairs.j[0] = 1; }},
         Forgery{"/state/pairs/impulse_n, entry 0, is not a finite number",
-                [](Checkpoint& c) { c.state.pairs.impulse_n[0] = no_number; }},
+                [](Checkpoint<2>& c) { c.state.pairs.impulse_n[0] = no_number; }},
         Forgery{"/state/pairs/skin is not a positive length",
-                [](Checkpoint& c) { c.state.pairs.skin = 0; }},
+                [](Checkpoint<2>& c) { c.state.pairs.skin = 0; }},
         Forgery{"/state/pairs/skin is larger than a large grain",
-                [](Checkpoint& c) { c.state.pairs.skin = 1e300; }},
+                [](Checkpoint<2>& c) { c.state.pairs.skin = 1e300; }},
         Forgery{"/state/pairs/renewals is too large for a number of pair lists",
-                [](Checkpoint& c) { c.state.pairs.renewals = std::uint64_t{1} << 63; }},
+                [](Checkpoint<2>& c) { c.state.pairs.renewals = std::uint64_t{1} << 63; }},
         Forgery{"/trajectory/frames is too large for a number of frames",
-                [](Checkpoint& c) { c.trajectory.frames = std::uint64_t{1} << 63; }},
+                [](Checkpoint<2>& c) { c.trajectory.frames = std::uint64_t{1} << 63; }},
         Forgery{"/trajectory/begin is not a finite number",
-                [](Checkpoint& c) { c.trajectory.begin = no_number; }},
+                [](Checkpoint<2>& c) { c.trajectory.begin = no_number; }},
         Forgery{"/trajectory/wall is not a duration in s",
-                [](Checkpoint& c) { c.trajectory.wall = -1; }},
+                [](Checkpoint<2>& c) { c.trajectory.wall = -1; }},
         Forgery{"/trajectory/totals has a negative number of steps",
-                [](Checkpoint& c) { c.trajectory.recorder.totals.steps = -1; }},
+                [](Checkpoint<2>& c) { c.trajectory.recorder.totals.steps = -1; }},
         Forgery{"/trajectory/since_frame/sweeps is not a finite number",
-                [](Checkpoint& c) { c.trajectory.recorder.since_frame.sweeps = no_number; }}));
+                [](Checkpoint<2>& c) { c.trajectory.recorder.since_frame.sweeps = no_number; }}));
 
 TEST_F(CheckpointFile, ASceneThatIsNoneIsRefused)
 {
@@ -342,8 +344,8 @@ TEST_F(CheckpointFile, GrainsInOnePlaceAreRefused)
     written.state.row.push_back(static_cast<std::int32_t>(written.state.row.size()));
     written.state.position.emplace_back(1e-3, 1e-3);
     written.state.velocity.emplace_back(0, 0);
-    written.state.image.push_back(0);
-    written.state.rim_speed.push_back(0);
+    written.state.image.push_back({0});
+    written.state.rim.push_back({0});
     written.state.pairs.made_at.emplace_back(0, 0);
   }
   write_checkpoint(path, written);

@@ -17,7 +17,7 @@ using worlds::world_of;
 
 TEST(Recorder, TheMomentumDefectIsTheForceThatIsMissingOverTheLargest)
 {
-  World world;
+  World<2> world;
   worlds::add(world, {{0, 0}, 0.5});
   worlds::add(world, {{1, 0}, 0.5});
   Frame<2> frame;
@@ -25,9 +25,9 @@ TEST(Recorder, TheMomentumDefectIsTheForceThatIsMissingOverTheLargest)
   frame.contacts.j = {0};
   frame.contacts.force = {{4, 0}};
   frame.force = {{-4, 0}, {4, 0}};
-  EXPECT_EQ(momentum_defect(world.grains, frame, {0, 0}), 0);
+  EXPECT_EQ(momentum_defect<2>(world.grains, frame, {0, 0}), 0);
   frame.force[0].y() = 1;
-  EXPECT_EQ(momentum_defect(world.grains, frame, {0, 0}), 0.25);
+  EXPECT_EQ(momentum_defect<2>(world.grains, frame, {0, 0}), 0.25);
 }
 
 class RecorderFile : public testing::Test {
@@ -36,15 +36,15 @@ class RecorderFile : public testing::Test {
                       ("grseg_recorder_test_" + std::to_string(getpid()) + ".h5"))
                          .string();
   void TearDown() override { std::filesystem::remove(path); }
-  World world = world_of({{{0, 0.5}, 0.5}});
+  World<2> world = world_of({{{0, 0.5}, 0.5}});
   /// Records one step with this report; returns the value of `name` in the file.
   double record(const StepReport& report, const std::string& name)
   {
-    Simulation simulation(world, {{0, 0.5}});
+    Simulation<2> simulation(world, {{0, 0.5}});
     Frame<2> frame;
     simulation.advance(frame);
     {
-      TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+      TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables(2)});
       Recorder recorder(writer, 1);
       recorder.add(report);
       recorder.write(frame, simulation);
@@ -82,7 +82,7 @@ TEST_F(RecorderFile, EveryNumberOfAStepIsFoundUnderItsName)
 TEST_F(RecorderFile, WhatMovingBoundariesDoIsRecorded)
 {
   world = world_of({{{0, 0.5}, 0.5}, {{0, -0.5}, 0.5, true}});
-  Simulation simulation(world, {{0, 0.5}, {0, -0.4995}});
+  Simulation<2> simulation(world, {{0, 0.5}, {0, -0.4995}});
   BoundaryBody base;
   base.begin = 1;
   base.end = 2;
@@ -90,7 +90,7 @@ TEST_F(RecorderFile, WhatMovingBoundariesDoIsRecorded)
   simulation.drive({base});
   Frame<2> frame;
   {
-    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables()});
+    TrajectoryWriter writer(path, {world.grains, world.box, {}, Recorder::observables(2)});
     Recorder recorder(writer, 1);
     recorder.add(simulation.advance(frame));
     recorder.write(frame, simulation);

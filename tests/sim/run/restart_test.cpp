@@ -21,7 +21,7 @@ using small_chute::scene;
 using small_chute::tilted_gravity;
 
 /// Digest chained over all frames of `steps` steps.
-std::uint64_t digest_of_steps(Simulation& simulation, int steps, std::uint64_t before = 0)
+std::uint64_t digest_of_steps(Simulation<2>& simulation, int steps, std::uint64_t before = 0)
 {
   Frame<2> frame;
   for (int k = 0; k < steps; ++k) {
@@ -31,18 +31,18 @@ std::uint64_t digest_of_steps(Simulation& simulation, int steps, std::uint64_t b
   return before;
 }
 
-Checkpoint through_a_file(const Checkpoint& checkpoint)
+Checkpoint<2> through_a_file(const Checkpoint<2>& checkpoint)
 {
   const auto path = (std::filesystem::temp_directory_path() /
                      ("grseg_restart_test_" + std::to_string(getpid()) + ".chk"))
                         .string();
   write_checkpoint(path, checkpoint);
-  auto read = read_checkpoint(path);
+  auto read = std::get<Checkpoint<2>>(read_checkpoint(path));
   std::filesystem::remove(path);
   return read;
 }
 
-Simulation restarted(const Simulation& simulation, const Scene& scene)
+Simulation<2> restarted(const Simulation<2>& simulation, const Scene& scene)
 {
   auto again =
       restored_simulation(through_a_file(checkpoint_of(simulation, scene)), scene, scene, {});
@@ -103,7 +103,7 @@ TEST(Restart, AtAnyStepBetweenTwoRenewalsOfThePairList)
   const auto chute = scene();
   auto simulation = bed(chute);
   std::vector<std::uint64_t> digests;
-  std::vector<Checkpoint> checkpoints;
+  std::vector<Checkpoint<2>> checkpoints;
   for (int k = 0; k < 400; ++k) {
     if (k % 13 == 0) checkpoints.push_back(checkpoint_of(simulation, chute));
     digests.push_back(digest_of_steps(simulation, 1));
@@ -155,7 +155,7 @@ TEST(Restart, OfAListThatWasNeverMade)
   std::vector<Vec2> position;
   for (std::size_t g = 0; g < deposited.world().grains.size(); ++g)
     position.push_back(deposited.position(g));
-  Simulation undisturbed(deposited.world(), position);
+  Simulation<2> undisturbed(deposited.world(), position);
   auto again = restarted(undisturbed, chute);
   EXPECT_EQ(digest_of_steps(again, 20), digest_of_steps(undisturbed, 20));
 }
@@ -231,18 +231,18 @@ TEST(Restart, APerturbationMovesMobileGrainsByUpToItsSizeAndItsSeedTellsHow)
   EXPECT_GT(differ, checkpoint.grains.size() / 2);
 }
 
-Scene with_words(const Checkpoint& checkpoint, const std::vector<std::string>& words)
+Scene with_words(const Checkpoint<2>& checkpoint, const std::vector<std::string>& words)
 {
   namespace po = boost::program_options;
   po::variables_map given;
   po::store(po::command_line_parser(words).options(scene_options()).run(), given);
-  return scene_of(checkpoint, "run.chk", given);
+  return scene_of(checkpoint.scene, "run.chk", given);
 }
 
 TEST(Restart, TheCommandLineWinsOverTheCheckpointAndTheRestStays)
 {
   const auto chute = scene({"--friction", "0.3"});
-  Checkpoint checkpoint;
+  Checkpoint<2> checkpoint;
   checkpoint.scene = to_text(chute);
   const auto now = with_words(checkpoint, {"--duration", "300", "--slope", "21"});
   EXPECT_EQ(now.duration, 300);
@@ -254,7 +254,7 @@ TEST(Restart, TheCommandLineWinsOverTheCheckpointAndTheRestStays)
 
 TEST(Restart, AGivenAccuracyReplacesStepToleranceAndSweeps)
 {
-  Checkpoint checkpoint;
+  Checkpoint<2> checkpoint;
   checkpoint.scene = to_text(scene());
   const auto now = with_words(checkpoint, {"--accuracy", "reference"});
   const auto fresh = scene({"--accuracy", "reference"});
@@ -267,7 +267,7 @@ TEST(Restart, AGivenAccuracyReplacesStepToleranceAndSweeps)
 TEST(Restart, KeysOfTheBedCannotChange)
 {
   const auto chute = scene();
-  Checkpoint checkpoint;
+  Checkpoint<2> checkpoint;
   checkpoint.scene = to_text(chute);
   EXPECT_NO_THROW(require_same_bed(chute, with_words(checkpoint, {"--depth", "8dS"})));
   EXPECT_NO_THROW(require_same_bed(chute, with_words(checkpoint, {"--friction", "0.1"})));
@@ -298,7 +298,7 @@ TEST(Restart, KeysOfTheBedCannotChange)
 TEST(Restart, ALengthInOtherUnitsIsNoOtherBed)
 {
   const auto chute = scene({"--length", "70dS"});
-  Checkpoint checkpoint;
+  Checkpoint<2> checkpoint;
   checkpoint.scene = to_text(chute);
   for (const char* length : {"0.35m", "350mm", "35cm"}) {
     const auto now = without_round_off(with_words(checkpoint, {"--length", length}), chute);
@@ -323,9 +323,9 @@ TEST(Restart, ATextOfTheSceneGivesTheSameSceneForAnyRatio)
 {
   for (int k = 0; k < 200; ++k) {
     const auto chute = scene({"--size-ratio", std::to_string(1.1 + 0.0137 * k), "--length", "1m"});
-    Checkpoint checkpoint;
+    Checkpoint<2> checkpoint;
     checkpoint.scene = to_text(chute);
-    const auto again = scene_of(checkpoint, "run.chk");
+    const auto again = scene_of(checkpoint.scene, "run.chk");
     EXPECT_EQ(again.large_diameter, chute.large_diameter);
     EXPECT_EQ(to_text(again), checkpoint.scene);
   }

@@ -23,8 +23,8 @@ class CutBack : public testing::Test {
       (fs::temp_directory_path() / ("grseg_cut_back_test_" + std::to_string(getpid()) + ".h5.part"))
           .string();
   Scene scene = small_chute::scene();
-  Simulation simulation = small_chute::bed(scene);
-  Checkpoint checkpoint;
+  Simulation<2> simulation = small_chute::bed(scene);
+  Checkpoint<2> checkpoint;
 
   void record(TrajectoryWriter& writer, Recorder& recorder, int frames)
   {
@@ -40,7 +40,7 @@ class CutBack : public testing::Test {
     auto parameters = to_parameters(scene);
     parameters.numbers["summary_mean_gap"] = {1};
     const auto& world = simulation.world();
-    TrajectoryWriter writer(part, {world.grains, world.box, parameters, Recorder::observables()});
+    TrajectoryWriter writer(part, {world.grains, world.box, parameters, Recorder::observables(2)});
     Recorder recorder(writer, scene.small_diameter);
     record(writer, recorder, 3);
     checkpoint = small_chute::checkpoint_of(simulation, scene);
@@ -77,7 +77,7 @@ TEST_F(CutBack, TheFramesOfTheCheckpointStayAndTheRunGoesOnAsItWent)
 {
   const auto whole = TrajectoryReader(part).digest();
   const auto sweeps = TrajectoryReader(part).observable("sweeps");
-  simulation = Simulation(simulation.world(), checkpoint.state);
+  simulation = Simulation<2>(simulation.world(), checkpoint.state);
   {
     auto writer = cut();
     EXPECT_EQ(writer.frames(), 3u);

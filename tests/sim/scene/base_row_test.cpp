@@ -156,7 +156,7 @@ TEST(BaseRow, LeavesTheGrainsThatFallOnItAsTheyAre)
   const Words size{"--depth", "24dS", "--length", "24dL"};
   auto irregular = size;
   irregular.insert(irregular.end(), {"--base-height-spread", "0.2dS"});
-  const auto a = deposit(scene_from(size)), b = deposit(scene_from(irregular));
+  const auto a = deposit<2>(scene_from(size)), b = deposit<2>(scene_from(irregular));
   EXPECT_EQ(a.world().grains.radius, b.world().grains.radius);
 }
 
@@ -166,7 +166,7 @@ std::size_t fallen(const Words& words)
   auto all = words;
   all.insert(all.end(), {"--depth", "16dS", "--phi-large", "0.3", "--slope", "24"});
   const auto scene = scene_from(all);
-  auto simulation = release(deposit(scene), scene);
+  auto simulation = release(deposit<2>(scene), scene);
   while (simulation.time() < 1) simulation.advance();
   const auto& fixed = simulation.world().grains.fixed;
   double lowest = 0;

@@ -24,7 +24,7 @@ TEST(Deposition, MakesABedOfTheAskedDepthAndComposition)
 {
   const auto scene = scene_from(
       {"--depth", "12dS", "--length", "15dL", "--phi-large", "0.4", "--accuracy", "draft"});
-  const auto simulation = deposit(scene);
+  const auto simulation = deposit<2>(scene);
   EXPECT_NEAR(bed_height(simulation), scene.depth, 0.02 * scene.depth);
   const auto& grains = simulation.world().grains;
   double large = 0, all = 0, y_large = 0, y_small = 0;
@@ -56,8 +56,9 @@ struct Halves {
 
 Halves halves_of(const char* initial, const char* seed)
 {
-  const auto simulation = deposit(scene_from({"--depth", "24dS", "--length", "20dL", "--accuracy",
-                                              "draft", "--initial", initial, "--seed", seed}));
+  const auto simulation =
+      deposit<2>(scene_from({"--depth", "24dS", "--length", "20dL", "--accuracy", "draft",
+                             "--initial", initial, "--seed", seed}));
   const auto& grains = simulation.world().grains;
   std::vector<std::pair<double, bool>> by_height;
   Halves found;
@@ -102,11 +103,11 @@ TEST(Deposition, TakesTheSameGrainsHoweverTheyAreOrdered)
 double trembling(const std::string& accuracy, const std::string& min_sweeps)
 {
   const auto scene = scene_from({"--depth", "40dS", "--length", "10dL", "--accuracy", accuracy});
-  auto simulation = deposit(scene);
+  auto simulation = deposit<2>(scene);
   const auto loose = scene_from({"--accuracy", accuracy, "--min-sweeps", min_sweeps});
   auto world = simulation.world();
   world.solver = loose.solver;
-  simulation = Simulation(world, simulation.state());
+  simulation = Simulation<2>(world, simulation.state());
   double most = 0;
   while (simulation.time() < 1) {
     simulation.advance();
@@ -130,7 +131,7 @@ TEST(Deposition, GivesTheWorldTheConditionsOfTheScene)
   const auto scene =
       scene_from({"--depth", "6dS", "--length", "6dL", "--origin", "centre", "--rotation", "off",
                   "--density", "3", "--tolerance", "0.3", "--max-sweeps", "77", "--threads", "3"});
-  const auto simulation = deposit(scene);
+  const auto simulation = deposit<2>(scene);
   const auto& world = simulation.world();
   EXPECT_FALSE(world.rotation);
   EXPECT_EQ(world.solver.tolerance, 0.3);
@@ -150,7 +151,7 @@ TEST(Deposition, LargeGrainsAreDenserByTheDensityRatio)
 {
   const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--density", "3",
                                  "--density-ratio", "1.5", "--phi-large", "0.5"});
-  const auto simulation = deposit(scene);
+  const auto simulation = deposit<2>(scene);
   const auto& grains = simulation.world().grains;
   int large = 0;
   for (std::size_t k = 0; k < grains.size(); ++k) {
@@ -167,18 +168,18 @@ TEST(Deposition, IsRecordedBeforeTheTiltWithoutChangingTheBed)
   const auto scene = scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft"});
   std::int64_t steps = 0;
   std::vector<double> times;
-  const auto recorded =
-      deposit(scene, {.each_step = {},
-                      .slowed = {},
-                      .record = [&](const StepReport&, const Simulation&, const Frame<2>* frame) {
-                        ++steps;
-                        if (frame != nullptr) times.push_back(frame->time);
-                      }});
+  const auto recorded = deposit<2>(
+      scene, {.each_step = {},
+              .slowed = {},
+              .record = [&](const StepReport&, const Simulation<2>&, const Frame<2>* frame) {
+                ++steps;
+                if (frame != nullptr) times.push_back(frame->time);
+              }});
   ASSERT_GE(times.size(), 2u);
   EXPECT_GE(times.front(), -static_cast<double>(steps) * scene.step);
   EXPECT_LT(times.back(), 0);
   EXPECT_NEAR(times[1] - times[0], scene.frame_interval, 1e-12);
-  EXPECT_EQ(recorded.position(3), deposit(scene).position(3));
+  EXPECT_EQ(recorded.position(3), deposit<2>(scene).position(3));
 }
 
 TEST(Deposition, BringsElasticGrainsToRestBySlowingThemDown)
@@ -188,12 +189,12 @@ TEST(Deposition, BringsElasticGrainsToRestBySlowingThemDown)
                                  "--restitution", "1", "--accuracy", "draft"});
   double from = 0;
   const auto slowed = [&](double time) { from = from > 0 ? from : time; };
-  const auto bed = deposit(scene, {.each_step = {}, .slowed = slowed, .record = {}});
+  const auto bed = deposit<2>(scene, {.each_step = {}, .slowed = slowed, .record = {}});
   EXPECT_GE(from, 10 * std::sqrt(2 * scene.depth / scene.gravity));
   EXPECT_LT(translational_energy(bed), potential_energy(bed) / 100);
   EXPECT_EQ(bed.world().material.restitution, 1);
-  const auto record = [](const StepReport&, const Simulation&, const Frame<2>*) {};
-  const auto recorded = deposit(scene, {.each_step = {}, .slowed = {}, .record = record});
+  const auto record = [](const StepReport&, const Simulation<2>&, const Frame<2>*) {};
+  const auto recorded = deposit<2>(scene, {.each_step = {}, .slowed = {}, .record = record});
   EXPECT_EQ(recorded.position(3), bed.position(3));
 }
 
@@ -204,14 +205,14 @@ TEST(Deposition, EndsWhenItIsAskedTo)
   const auto listen = [&](double) {
     if (++steps == 10) throw ToolError(exit_signal, "interrupted");
   };
-  EXPECT_THROW(deposit(scene, {.each_step = listen, .slowed = {}, .record = {}}), ToolError);
+  EXPECT_THROW(deposit<2>(scene, {.each_step = listen, .slowed = {}, .record = {}}), ToolError);
   EXPECT_EQ(steps, 10);
 }
 
 TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
 {
   try {
-    deposit(scene_from({"--geometry", "column", "--lateral", "walls", "--column-width", "1dL"}));
+    deposit<2>(scene_from({"--geometry", "column", "--lateral", "walls", "--column-width", "1dL"}));
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_STREQ(
@@ -223,15 +224,15 @@ TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
 
 TEST(Deposition, WithoutGrainsIsRefused)
 {
-  EXPECT_THROW(deposit(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
-                                   "--length", "4dL", "--base", "wall"})),
+  EXPECT_THROW(deposit<2>(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
+                                      "--length", "4dL", "--base", "wall"})),
                UsageError);
 }
 
 TEST(Deposition, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame)
 {
   const auto bed = [](const char* seed) {
-    return deposit(
+    return deposit<2>(
         scene_from({"--depth", "6dS", "--length", "6dL", "--accuracy", "draft", "--seed", seed}));
   };
   const auto first = bed("1"), again = bed("1"), other = bed("2");
@@ -241,8 +242,9 @@ TEST(Deposition, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame)
 
 TEST(Deposition, StandsOnAStraightWallBetweenWallsToo)
 {
-  const auto simulation = deposit(scene_from({"--depth", "8dS", "--length", "8dL", "--base", "wall",
-                                              "--lateral", "walls", "--accuracy", "draft"}));
+  const auto simulation =
+      deposit<2>(scene_from({"--depth", "8dS", "--length", "8dL", "--base", "wall", "--lateral",
+                             "walls", "--accuracy", "draft"}));
   for (std::size_t k = 0; k < simulation.world().grains.size(); ++k) {
     EXPECT_FALSE(simulation.world().grains.fixed[k]);
     const double r = simulation.world().grains.radius[k];

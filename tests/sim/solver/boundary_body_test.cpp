@@ -19,7 +19,7 @@ constexpr double pi = std::numbers::pi;
 /// Two boundary discs side by side form one body, above a mobile disc that rests on a floor.
 struct UnderAPlate {
   std::vector<Disc> discs{{{0.5, 0.5}, 0.5}, {{0, 1.5}, 0.5, true}, {{1, 1.5}, 0.5, true}};
-  World world = world_of(discs);
+  World<2> world = world_of(discs);
   BoundaryBody plate;
   UnderAPlate()
   {
@@ -38,7 +38,7 @@ TEST(BoundaryBody, APlateAtRestPutsItsLoadOnTheFloor)
   UnderAPlate scene;
   scene.world.gravity = {0, -3};
   scene.world.material = {0, 0};
-  Simulation simulation(scene.world, positions_of(scene.discs));
+  Simulation<2> simulation(scene.world, positions_of(scene.discs));
   simulation.drive({scene.plate});
   Frame<2> frame;
   for (int step = 0; step < 200; ++step) simulation.advance(frame);
@@ -58,7 +58,7 @@ TEST(BoundaryBody, AGrainAndAPlateExchangeTheMomentumOfTwoFreeBodies)
         {{0, 0}, 0.5}, {{0, 1.0004}, 0.5, true}, {{1, 1.0004}, 0.5, true}};
     auto world = world_of(discs);
     world.material = {0, e};
-    Simulation simulation(world, positions_of(discs));
+    Simulation<2> simulation(world, positions_of(discs));
     BoundaryBody plate;
     plate.begin = 1;
     plate.end = 3;
@@ -77,7 +77,7 @@ TEST(BoundaryBody, APlateWithoutContactsFallsUnderItsLoad)
 {
   UnderAPlate scene;
   scene.discs[1].position.y() = scene.discs[2].position.y() = 10;
-  Simulation simulation(scene.world, positions_of(scene.discs));
+  Simulation<2> simulation(scene.world, positions_of(scene.discs));
   simulation.drive({scene.plate});
   for (int step = 0; step < 1000; ++step) simulation.advance();
   EXPECT_NEAR(simulation.velocity(1).y(), -3.5, 1e-12);
@@ -87,7 +87,7 @@ TEST(BoundaryBody, APlateWithoutContactsFallsUnderItsLoad)
 TEST(BoundaryBody, ATurningRingKeepsItsRadiusAndGoesRoundInItsPeriod)
 {
   const std::vector<Disc> discs{{{5, 1}, 0.5, true}, {{1, 5}, 0.5, true}, {{100, 100}, 0.5}};
-  Simulation simulation(world_of(discs), positions_of(discs));
+  Simulation<2> simulation(world_of(discs), positions_of(discs));
   BoundaryBody ring;
   ring.begin = 0;
   ring.end = 2;
@@ -105,7 +105,7 @@ TEST(BoundaryBody, ATurningRingKeepsItsRadiusAndGoesRoundInItsPeriod)
 TEST(BoundaryBody, AnOscillatingBaseFollowsItsSine)
 {
   const std::vector<Disc> discs{{{0, 0}, 0.5, true}, {{100, 100}, 0.5}};
-  Simulation simulation(world_of(discs), positions_of(discs));
+  Simulation<2> simulation(world_of(discs), positions_of(discs));
   BoundaryBody base;
   base.end = 1;
   base.amplitude = {0, 0.3};
@@ -118,7 +118,7 @@ TEST(BoundaryBody, AnOscillatingBaseFollowsItsSine)
 TEST(BoundaryBody, NothingMovesBeforeTimeZero)
 {
   const std::vector<Disc> discs{{{0, 0}, 0.5, true}, {{100, 100}, 0.5}};
-  Simulation simulation(world_of(discs), positions_of(discs));
+  Simulation<2> simulation(world_of(discs), positions_of(discs));
   BoundaryBody base;
   base.end = 1;
   base.velocity = {1, 0};
@@ -138,7 +138,7 @@ TEST(BoundaryBody, TheWorkOfAMovingBaseClosesTheEnergyBalance)
   auto world = world_of(discs);
   world.material = {0.5, 0.5};
   world.gravity = {0, -1};
-  Simulation simulation(world, positions_of(discs));
+  Simulation<2> simulation(world, positions_of(discs));
   BoundaryBody base;
   base.end = 1;
   base.velocity = {0.3, 2};
@@ -149,7 +149,7 @@ TEST(BoundaryBody, TheWorkOfAMovingBaseClosesTheEnergyBalance)
   for (int step = 0; step < 20; ++step) {
     simulation.advance(frame);
     const auto balance =
-        energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+        energy_balance<2>(world.grains, frame, simulation.before(), world.gravity, world.step);
     EXPECT_LT(balance.defect(), 1e-13);
     work += balance.work_of_boundaries;
   }

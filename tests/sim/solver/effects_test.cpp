@@ -12,10 +12,10 @@
 namespace grseg {
 namespace {
 
-using Change = std::function<void(World&)>;
+using Change = std::function<void(World<2>&)>;
 
 /// The small chute in motion, without spin, with changed conditions.
-Simulation chute_with(const Change& change, const std::vector<std::string>& words = {})
+Simulation<2> chute_with(const Change& change, const std::vector<std::string>& words = {})
 {
   auto start = small_chute::bed(small_chute::scene(words));
   for (int k = 0; k < 300; ++k) start.advance();
@@ -23,13 +23,13 @@ Simulation chute_with(const Change& change, const std::vector<std::string>& word
   change(world);
   std::vector<Vec2> position;
   for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(start.position(g));
-  Simulation simulation(world, position);
+  Simulation<2> simulation(world, position);
   for (std::size_t g = 0; g < position.size(); ++g) simulation.set_velocity(g, start.velocity(g));
   return simulation;
 }
 
 /// Digest of all frames of a flow.
-std::uint64_t flow(Simulation simulation)
+std::uint64_t flow(Simulation<2> simulation)
 {
   std::uint64_t digest = 0;
   std::size_t contacts = 0;
@@ -44,23 +44,23 @@ std::uint64_t flow(Simulation simulation)
   return digest;
 }
 
-void make_general(World& world)
+void make_general(World<2>& world)
 {
   world.general = true;
 }
 
 TEST(Effects, AFlowWithoutFrictionIsOneOfFrictionZeroToTheLastBit)
 {
-  const Change smooth = [](World& w) { w.material.friction = 0; };
-  const Change zero = [&](World& w) { smooth(w), make_general(w); };
+  const Change smooth = [](World<2>& w) { w.material.friction = 0; };
+  const Change zero = [&](World<2>& w) { smooth(w), make_general(w); };
   EXPECT_EQ(flow(chute_with(smooth)), flow(chute_with(zero)));
   EXPECT_NE(flow(chute_with(smooth)), flow(chute_with(make_general)));
 }
 
 TEST(Effects, AFlowWithoutRestitutionIsOneOfRestitutionZeroToTheLastBit)
 {
-  const Change inelastic = [](World& w) { w.material.restitution = 0; };
-  const Change zero = [&](World& w) { inelastic(w), make_general(w); };
+  const Change inelastic = [](World<2>& w) { w.material.restitution = 0; };
+  const Change zero = [&](World<2>& w) { inelastic(w), make_general(w); };
   EXPECT_EQ(flow(chute_with(inelastic)), flow(chute_with(zero)));
   EXPECT_NE(flow(chute_with(inelastic)), flow(chute_with(make_general)));
 }
@@ -69,16 +69,16 @@ TEST(Effects, AFlowWithoutRestitutionIsOneOfRestitutionZeroToTheLastBit)
 // spinning.
 TEST(Effects, AFlowWithoutRotationIsOneInWhichNothingSpinsToTheLastBit)
 {
-  const Change unspun = [](World& w) { w.material.friction = 0, make_general(w); };
-  const Change unturned = [&](World& w) { unspun(w), w.rotation = false; };
-  const Change rough_and_unturned = [](World& w) { w.rotation = false; };
+  const Change unspun = [](World<2>& w) { w.material.friction = 0, make_general(w); };
+  const Change unturned = [&](World<2>& w) { unspun(w), w.rotation = false; };
+  const Change rough_and_unturned = [](World<2>& w) { w.rotation = false; };
   EXPECT_EQ(flow(chute_with(unturned)), flow(chute_with(unspun)));
   EXPECT_NE(flow(chute_with(rough_and_unturned)), flow(chute_with(make_general)));
 }
 
 TEST(Effects, AFlowBetweenWallsIsOneWhosePairsAreShiftedByNothingToTheLastBit)
 {
-  const Change nothing = [](World&) {};
+  const Change nothing = [](World<2>&) {};
   const std::vector<std::string> steep{"--slope", "60"},
       walls{"--slope", "60", "--lateral", "walls"};
   EXPECT_EQ(flow(chute_with(nothing, walls)), flow(chute_with(make_general, walls)));
@@ -89,11 +89,11 @@ TEST(Effects, AFlowBetweenWallsIsOneWhosePairsAreShiftedByNothingToTheLastBit)
 // the centred law, because the speculative law checks whether a pair has been slowed down at all.
 TEST(Effects, AFlowWithoutGravityIsOneOfGravityBelowTheLastDigitToTheLastBit)
 {
-  const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };
-  const Change faint = [](World& w) { w.gravity = {1e-200, -1e-200}; };
+  const Change weightless = [](World<2>& w) { w.gravity = Vec2::Zero(); };
+  const Change faint = [](World<2>& w) { w.gravity = {1e-200, -1e-200}; };
   const std::vector<std::string> centred{"--contact-law", "centred"};
   EXPECT_EQ(flow(chute_with(weightless, centred)), flow(chute_with(faint, centred)));
-  EXPECT_NE(flow(chute_with(weightless, centred)), flow(chute_with([](World&) {}, centred)));
+  EXPECT_NE(flow(chute_with(weightless, centred)), flow(chute_with([](World<2>&) {}, centred)));
 }
 
 }  // namespace

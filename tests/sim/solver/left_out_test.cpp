@@ -27,11 +27,11 @@ constexpr long of_friction = 17, of_rotation = 12, of_restitution = 1;
 /// Instructions of the sweep for two further blocks of eight contacts.
 Instructions of_two_blocks(Effects effects)
 {
-  const auto sweep = choose_sweep(effects);
+  const auto sweep = choose_sweep<2>(effects);
   const auto count = [&](std::size_t blocks) {
-    std::vector<ContactBlock> all(blocks, ContactBlock{});
+    std::vector<ContactBlock<2>> all(blocks, ContactBlock<2>{});
     const std::vector<std::uint32_t> ends{static_cast<std::uint32_t>(blocks)};
-    std::vector<Motion> idle(1);
+    std::vector<Motion<2>> idle(1);
     return instructions_of([&] { sweep({all, ends}, idle.data(), 0.5); }).value();
   };
   const auto three = count(3), one = count(1);
@@ -101,8 +101,8 @@ void add_bits(Bits& bits, double x)
 
 /// Velocities and normal impulses after three sweeps over the frozen problem, after `spoil` has
 /// changed its blocks and bodies.
-Bits swept(Effects effects, const std::function<void(ContactBlock&)>& spoil_block,
-           const std::function<void(Motion&)>& spoil_body)
+Bits swept(Effects effects, const std::function<void(ContactBlock<2>&)>& spoil_block,
+           const std::function<void(Motion<2>&)>& spoil_body)
 {
   auto problem = read_frozen_problem(GRSEG_TEST_INPUTS "/chute-contact-problem.txt");
   problem.motion.emplace_back();
@@ -113,27 +113,27 @@ Bits swept(Effects effects, const std::function<void(ContactBlock&)>& spoil_bloc
   Bits bits;
   for (int k = 0; k < 3; ++k) {
     const auto found =
-        choose_sweep(effects)(packed.runs(), problem.motion.data(), problem.friction);
+        choose_sweep<2>(effects)(packed.runs(), problem.motion.data(), problem.friction);
     for (const double x : {found.largest, found.sum_squares, found.sum_reference})
       add_bits(bits, x);
   }
-  apply_impulses(packed.blocks(), problem.motion.data(), effects);
+  apply_impulses<2>(packed.blocks(), problem.motion.data(), effects);
   for (const auto& block : packed.blocks())
     for (const double n : block.impulse_n) add_bits(bits, n);
   for (const auto& m : problem.motion)
-    for (const double v : {m.vx, m.vy}) add_bits(bits, v);
+    for (const double v : {m.v[0], m.v[1]}) add_bits(bits, v);
   return bits;
 }
 
 TEST(NotEvenRead, IsWhatFrictionRotationAndRestitutionNeedInSweepsWithoutThem)
 {
-  const auto whole_block = [](ContactBlock&) {};
-  const auto whole_body = [](Motion&) {};
-  const auto of_friction = [](ContactBlock& b) {
-    for (auto* lanes : {&b.kappa, &b.mass_t, &b.impulse_t}) lanes->fill(poison);
+  const auto whole_block = [](ContactBlock<2>&) {};
+  const auto whole_body = [](Motion<2>&) {};
+  const auto of_friction = [](ContactBlock<2>& b) {
+    for (auto* lanes : {&b.kappa, &b.mass_t, &b.impulse_t[0]}) lanes->fill(poison);
   };
-  const auto of_restitution = [](ContactBlock& b) { b.rebound.fill(poison); };
-  const auto of_rotation = [](Motion& m) { m.rim_speed = poison; };
+  const auto of_restitution = [](ContactBlock<2>& b) { b.rebound.fill(poison); };
+  const auto of_rotation = [](Motion<2>& m) { m.rim[0] = poison; };
   for (const auto& set : instruction_sets()) {
     use_instruction_set(set);
     const Effects smooth{false, true, true}, unturned{true, false, true},
@@ -156,24 +156,24 @@ Bits found_in_a_bed(bool periodic, bool spoilt)
   const auto& world = bed.world();
   std::vector<Vec2> position;
   for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(bed.position(g));
-  auto state = make_state(world.grains, position);
-  PairList list({}, {world.box.length_x, world.box.length_y, false}, 0.006, world.skin,
-                world.law.margin, 1);
+  auto state = make_state<2>(world.grains, position);
+  PairList<2> list({}, {world.box.length_x, world.box.length_y, false}, 0.006, world.skin,
+                   world.law.margin, 1);
   list.renew(state, state.position);
   auto pairs = list.pairs();
   if (spoilt)
     for (auto& geometry : pairs.geometry) geometry.shift = poison;
-  DetectionRule rule;
+  DetectionRule<2> rule;
   rule.ahead = rule.middle = state.position;
   rule.motion = state.motion;
   rule.margin = world.law.margin;
   rule.periodic = periodic;
-  std::vector<StripContacts> contacts;
+  std::vector<StripContacts<2>> contacts;
   find_contacts(pairs, rule, contacts);
   Bits bits;
   for (const auto& strip : contacts)
     for (std::size_t b = 0; b < strip.size; ++b)
-      for (const auto* lanes : {&strip.blocks[b].nx, &strip.blocks[b].ny})
+      for (const auto* lanes : {&strip.blocks[b].n[0], &strip.blocks[b].n[1]})
         for (const double x : *lanes) add_bits(bits, x);
   return bits;
 }
@@ -191,10 +191,10 @@ TEST(NotEvenRead, IsThePeriodWhereACellHasEnds)
   use_instruction_set("");
 }
 
-using Change = std::function<void(World&)>;
+using Change = std::function<void(World<2>&)>;
 
 /// The small chute in motion between walls, one sweep per step, with changed conditions.
-Simulation chute_with(const Change& change)
+Simulation<2> chute_with(const Change& change)
 {
   static const auto start = [] {
     auto bed = small_chute::bed(small_chute::scene(
@@ -207,14 +207,14 @@ Simulation chute_with(const Change& change)
   change(world);
   std::vector<Vec2> position;
   for (std::size_t g = 0; g < world.grains.size(); ++g) position.push_back(start.position(g));
-  Simulation simulation(world, position);
+  Simulation<2> simulation(world, position);
   for (std::size_t g = 0; g < position.size(); ++g) simulation.set_velocity(g, start.velocity(g));
   // The first step makes the list, the second one allocates all remaining memory.
   for (int k = 0; k < 2; ++k) simulation.advance();
   return simulation;
 }
 
-Instructions step_of(Simulation simulation)
+Instructions step_of(Simulation<2> simulation)
 {
   return instructions_of([&] { simulation.advance(); }).value();
 }
@@ -240,10 +240,10 @@ TEST_F(LeftOutOfAStep, FrictionAndRestitutionLeaveNothingWhereTheirCoefficientIs
 {
   // Compared with coefficients so small that they have no effect but must be computed.
   const auto rough = [](double friction) -> Change {
-    return [friction](World& w) { w.material.friction = friction; };
+    return [friction](World<2>& w) { w.material.friction = friction; };
   };
   const auto rebounding = [](double e) -> Change {
-    return [e](World& w) { w.material.restitution = e; };
+    return [e](World<2>& w) { w.material.restitution = e; };
   };
   const long blocks = blocks_of_a_step(rough(0));
   ASSERT_GT(blocks, 1);
@@ -256,13 +256,13 @@ TEST_F(LeftOutOfAStep, FrictionAndRestitutionLeaveNothingWhereTheirCoefficientIs
 
 TEST_F(LeftOutOfAStep, GravityAndBodiesThatMoveLeaveNothingForAnyGrainWhereThereAreNone)
 {
-  const Change weightless = [](World& w) { w.gravity = Vec2::Zero(); };
-  const Change faint = [](World& w) { w.gravity = {1e-200, -1e-200}; };
+  const Change weightless = [](World<2>& w) { w.gravity = Vec2::Zero(); };
+  const Change faint = [](World<2>& w) { w.gravity = {1e-200, -1e-200}; };
   const auto grains = static_cast<long>(chute_with(weightless).world().grains.size());
   EXPECT_GE(step_of(chute_with(faint)).all - step_of(chute_with(weightless)).all, grains);
 
   long fixed = 0;
-  const Change still = [&](World& w) {
+  const Change still = [&](World<2>& w) {
     BoundaryBody base;
     base.end = static_cast<std::uint32_t>(w.grains.size());
     while (w.grains.fixed[base.end - 1 - static_cast<std::size_t>(fixed)]) ++fixed;
@@ -270,13 +270,13 @@ TEST_F(LeftOutOfAStep, GravityAndBodiesThatMoveLeaveNothingForAnyGrainWhereThere
     w.bodies = {base};
   };
   const long with = step_of(chute_with(still)).all;
-  EXPECT_GE(with - step_of(chute_with([](World&) {})).all, fixed);
+  EXPECT_GE(with - step_of(chute_with([](World<2>&) {})).all, fixed);
   EXPECT_GT(fixed, 3);
 }
 
 TEST_F(LeftOutOfAStep, AStepWithoutAFrameSpendsNothingOnRecording)
 {
-  const Change nothing = [](World&) {};
+  const Change nothing = [](World<2>&) {};
   auto simulation = chute_with(nothing);
   Frame<2> frame;
   auto recorded = simulation;

@@ -14,12 +14,12 @@ namespace {
 
 TEST(Solver, AVelocityFarBelowTheFloorNeedsNoSecondSweep)
 {
-  std::vector<Motion> motion{{0, -1e-12, 0, 1}, {0, 0, 0, 0}};
-  Contact c{};
-  c.ny = c.kappa = c.mass_n = 1;
+  std::vector<Motion<2>> motion{{{0, -1e-12}, 1}, {}};
+  Contact<2> c{};
+  c.n[1] = c.kappa = c.mass_n = 1;
   c.mass_t = 1.0 / 3;
   c.j = 1;
-  std::vector<Contact> contacts{c};
+  std::vector<Contact<2>> contacts{c};
   EXPECT_EQ(solve_contacts(contacts, motion, 0.5, {}, {1e-2, 100}, 1e-6).sweeps, 1);
 }
 
@@ -28,12 +28,12 @@ TEST(Solver, MakesTheLeastNumberOfSweepsUnlessOneChangesNothing)
   // A column of ten discs on a floor, without initial impulses; from the first sweep on, the floor
   // carries the lowest disc only.
   const auto sweeps = [](int discs, int at_least) {
-    std::vector<Motion> motion(static_cast<std::size_t>(discs), Motion{0, -1, 0, 1});
+    std::vector<Motion<2>> motion(static_cast<std::size_t>(discs), Motion<2>{{0, -1}, 1});
     motion.push_back({});
-    std::vector<Contact> contacts;
+    std::vector<Contact<2>> contacts;
     for (int k = 0; k < discs; ++k) {
-      Contact c{};
-      c.ny = c.kappa = 1;
+      Contact<2> c{};
+      c.n[1] = c.kappa = 1;
       c.mass_n = k == 0 ? 1 : 0.5;
       c.mass_t = c.mass_n / 3;
       c.i = k, c.j = k == 0 ? discs : k - 1;
@@ -51,16 +51,16 @@ TEST(Solver, ComparesChangesWithNoMoreThanTheRangeAllows)
   // A wall stops a disc of speed 1, and two others hit a disc of speed 1e-3 in turn: the mean of W
   // p is dominated by the fast disc.
   const auto residual = [](const ReferenceRange& range) {
-    std::vector<Motion> motion{{0, -1, 0, 1}, {1e-3, 0, 0, 1}, {-1e-3, 0, 0, 1}, {}};
-    Contact stop{};
-    stop.ny = stop.kappa = stop.mass_n = 1;
+    std::vector<Motion<2>> motion{{{0, -1}, 1}, {{1e-3, 0}, 1}, {{-1e-3, 0}, 1}, {}};
+    Contact<2> stop{};
+    stop.n[1] = stop.kappa = stop.mass_n = 1;
     stop.i = 0, stop.j = 3;
-    Contact hit{};
-    hit.nx = -1;
+    Contact<2> hit{};
+    hit.n[0] = -1;
     hit.kappa = 1;
     hit.mass_n = 0.5;
     hit.i = 1, hit.j = 2;
-    std::vector<Contact> contacts{stop, hit};
+    std::vector<Contact<2>> contacts{stop, hit};
     return solve_contacts(contacts, motion, 0, {}, {10, 1}, range).residual;
   };
   EXPECT_NEAR(residual(0), std::sqrt(2), 1e-5);
@@ -70,18 +70,18 @@ TEST(Solver, ComparesChangesWithNoMoreThanTheRangeAllows)
 /// Rows of ten touching discs, one strip each; the first disc of the first row is hit.
 struct Rows {
   static constexpr std::size_t discs = 10;
-  std::vector<Motion> motion;
+  std::vector<Motion<2>> motion;
   std::vector<ContactBlocks> packed;
 
-  explicit Rows(std::size_t rows) : motion(rows * discs, Motion{0, 0, 0, 1}), packed(rows)
+  explicit Rows(std::size_t rows) : motion(rows * discs, Motion<2>{{0, 0}, 1}), packed(rows)
   {
-    motion[0].vx = 1;
+    motion[0].v[0] = 1;
     motion.emplace_back();
     for (std::size_t r = 0; r < rows; ++r) {
-      std::vector<Contact> contacts;
+      std::vector<Contact<2>> contacts;
       for (std::size_t k = discs - 1; k > 0; --k) {
-        Contact c{};
-        c.nx = c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+        Contact<2> c{};
+        c.n[0] = c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
         c.i = static_cast<std::int32_t>(r * discs + k);
         c.j = c.i - 1;
         contacts.push_back(c);
@@ -91,11 +91,11 @@ struct Rows {
   }
   SolverReport solve(int threads)
   {
-    std::vector<BlockRuns> strips;
+    std::vector<BlockRuns<2>> strips;
     for (auto& p : packed) strips.push_back(p.runs());
-    SolverMemory memory;
-    return solve_contacts(strips, motion,
-                          {packed.size() * (discs - 1), 0, {}, {1e-6, 10000}, 0, threads}, memory);
+    SolverMemory<2> memory;
+    return solve_contacts<2>(
+        strips, motion, {packed.size() * (discs - 1), 0, {}, {1e-6, 10000}, 0, threads}, memory);
   }
 };
 
@@ -107,28 +107,29 @@ TEST(Solver, AStripThatNeedsManySweepsDoesNotCostOthersMore)
   EXPECT_LE(among.residual, 1e-6);
   EXPECT_GT(alone.sweeps, 100);
   EXPECT_LT(among.sweeps, alone.sweeps / 5);
-  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_NEAR(many.motion[k].vx, 0.1, 1e-3);
+  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_NEAR(many.motion[k].v[0], 0.1, 1e-3);
   EXPECT_EQ(shared.solve(3).sweeps, among.sweeps);
-  for (std::size_t k = 0; k < Rows::discs; ++k) EXPECT_EQ(shared.motion[k].vx, many.motion[k].vx);
+  for (std::size_t k = 0; k < Rows::discs; ++k)
+    EXPECT_EQ(shared.motion[k].v[0], many.motion[k].v[0]);
 }
 
 /// Rows of ten discs, one strip each, that touch along rows and columns and are hit at random; an even
 /// number of rows closes to a ring.
 struct Net {
   static constexpr std::size_t discs = 10;
-  std::vector<Motion> motion;
+  std::vector<Motion<2>> motion;
   std::vector<ContactBlocks> packed;
-  std::vector<BlockRuns> strips;
+  std::vector<BlockRuns<2>> strips;
 
   explicit Net(std::size_t rows) : packed(rows)
   {
     std::mt19937 random(static_cast<unsigned>(rows));
     const auto number = [&] { return 1e-9 * static_cast<double>(random()) - 2; };
     for (std::size_t k = 0; k < rows * discs; ++k)
-      motion.push_back({number(), number(), number(), 1});
+      motion.push_back({{number(), number()}, 1, {number()}});
     motion.emplace_back();
     for (std::size_t r = 0; r < rows; ++r) {
-      std::vector<Contact> contacts;
+      std::vector<Contact<2>> contacts;
       for (std::size_t k = 0; k < discs; ++k) {
         if (k > 0) contacts.push_back(contact(r * discs + k, r * discs + k - 1, 1, 0));
         if (r + 1 < rows || rows % 2 == 0)
@@ -143,20 +144,20 @@ struct Net {
            {static_cast<std::uint32_t>(r * discs), static_cast<std::uint32_t>((r + 1) * discs)}});
     }
   }
-  static Contact contact(std::size_t i, std::size_t j, double nx, double ny)
+  static Contact<2> contact(std::size_t i, std::size_t j, double nx, double ny)
   {
-    Contact c{};
-    c.nx = nx, c.ny = ny, c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
+    Contact<2> c{};
+    c.n[0] = nx, c.n[1] = ny, c.kappa = 1, c.mass_n = 0.5, c.mass_t = 1.0 / 6;
     c.i = static_cast<std::int32_t>(i), c.j = static_cast<std::int32_t>(j);
     return c;
   }
   std::vector<double> numbers() const
   {
     std::vector<double> all;
-    for (const auto& m : motion) all.insert(all.end(), {m.vx, m.vy, m.rim_speed});
+    for (const auto& m : motion) all.insert(all.end(), {m.v[0], m.v[1], m.rim[0]});
     for (const auto& strip : strips)
       for (const auto& b : strip.blocks)
-        for (const auto& lanes : {b.impulse_n, b.impulse_t})
+        for (const auto& lanes : {b.impulse_n, b.impulse_t[0]})
           all.insert(all.end(), lanes.begin(), lanes.end());
     return all;
   }
@@ -164,8 +165,8 @@ struct Net {
   /// extrapolation uses changes from the eighth sweep on.
   void sweep_round_after_round(int sweeps, bool acceleration)
   {
-    const auto sweep = choose_sweep({});
-    ExtrapolationOf<double> extrapolation;
+    const auto sweep = choose_sweep<2>({});
+    ExtrapolationOf<2, double> extrapolation;
     extrapolation.begin(strips, motion, 1);
     for (int done = 0; done < sweeps; done += 2) {
       double change = 0;
@@ -199,8 +200,8 @@ TEST(Solver, StripsThatGoAheadEndWhereRoundAfterRoundEnds)
       expected.sweep_round_after_round(sweeps, acceleration);
       for (const int threads : {1, 2, 3}) {
         Net net(rows);
-        SolverMemory memory;
-        const auto report = solve_contacts(
+        SolverMemory<2> memory;
+        const auto report = solve_contacts<2>(
             net.strips, net.motion,
             {19 * rows, 0.5, {}, {1e9, most, acceleration, least}, 0, threads}, memory);
         EXPECT_EQ(report.sweeps, sweeps);
@@ -215,9 +216,10 @@ TEST(Solver, StripsThatGoAheadInSinglePrecisionGiveTheSameWithAnyNumberOfThreads
 {
   const auto solved = [](int threads) {
     Net net(30);
-    SolverMemory memory;
-    solve_contacts(net.strips, net.motion,
-                   {19 * 30, 0.5, {}, {1e-3, 100, true, 8, Precision::mixed}, 0, threads}, memory);
+    SolverMemory<2> memory;
+    solve_contacts<2>(net.strips, net.motion,
+                      {19 * 30, 0.5, {}, {1e-3, 100, true, 8, Precision::mixed}, 0, threads},
+                      memory);
     return net.numbers();
   };
   const auto alone = solved(1);
@@ -228,17 +230,17 @@ TEST(Solver, StripsThatGoAheadInSinglePrecisionGiveTheSameWithAnyNumberOfThreads
 TEST(Solver, WithoutGravityTheSweepThatOpensTheLastContactIsFollowedByAnother)
 {
   // Two discs that part, with an impulse between them that was correct before.
-  std::vector<Motion> motion{{1, 0, 0, 1}, {-1, 0, 0, 1}};
-  Contact c{};
-  c.nx = c.kappa = c.impulse_n = 1;
+  std::vector<Motion<2>> motion{{{1, 0}, 1}, {{-1, 0}, 1}};
+  Contact<2> c{};
+  c.n[0] = c.kappa = c.impulse_n = 1;
   c.mass_n = 0.5, c.mass_t = 1.0 / 6;
   c.j = 1;
-  std::vector<Contact> contacts{c};
+  std::vector<Contact<2>> contacts{c};
   const auto report = solve_contacts(contacts, motion, 0.5, {}, {0.5, 100}, 0);
   EXPECT_EQ(report.sweeps, 2);
   EXPECT_EQ(report.residual, 0);
   EXPECT_EQ(contacts[0].impulse_n, 0);
-  EXPECT_EQ(motion[0].vx, 1);
+  EXPECT_EQ(motion[0].v[0], 1);
 }
 
 TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
@@ -246,18 +248,18 @@ TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
   // 4000 discs rest on a floor with known impulses, beside a row of 10 touching discs whose first
   // disc is hit: without restitution all ten end with a tenth of its speed.
   const int row = 10, settled = 4000;
-  std::vector<Motion> motion;
-  std::vector<Contact> contacts;
+  std::vector<Motion<2>> motion;
+  std::vector<Contact<2>> contacts;
   const auto join = [&](int i, int j, double nx, double ny, double mass, double impulse) {
-    Contact c{};
-    c.nx = nx, c.ny = ny, c.kappa = 1;
+    Contact<2> c{};
+    c.n[0] = nx, c.n[1] = ny, c.kappa = 1;
     c.mass_n = mass, c.mass_t = mass / 3;
     c.impulse_n = impulse;
     c.i = i, c.j = j;
     contacts.push_back(c);
   };
-  for (int k = 0; k < row; ++k) motion.push_back({k == 0 ? 1.0 : 0.0, 0, 0, 1});
-  for (int k = 0; k < settled; ++k) motion.push_back({0, -1, 0, 1});
+  for (int k = 0; k < row; ++k) motion.push_back({{k == 0 ? 1.0 : 0.0, 0}, 1});
+  for (int k = 0; k < settled; ++k) motion.push_back({{0, -1}, 1});
   motion.push_back({});
   for (int k = 0; k < settled; ++k) join(row + k, row + settled, 0, 1, 1, 1);
   for (int k = row - 2; k >= 0; --k) join(k + 1, k, 1, 0, 0.5, 0);
@@ -265,21 +267,21 @@ TEST(Solver, ANewcomerIsNotHiddenByThousandsOfSettledContacts)
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.residual, 1e-3);
   EXPECT_LE(contact_residual(contacts, motion, 0, {}), 1e-3);
-  for (int k = 0; k < row; ++k) EXPECT_NEAR(motion[static_cast<std::size_t>(k)].vx, 0.1, 0.05);
+  for (int k = 0; k < row; ++k) EXPECT_NEAR(motion[static_cast<std::size_t>(k)].v[0], 0.1, 0.05);
 }
 
 /// n discs in a column on the ground, at rest except for gravity of one step.
 struct Column {
-  std::vector<Motion> motion;
-  std::vector<Contact> contacts;
+  std::vector<Motion<2>> motion;
+  std::vector<Contact<2>> contacts;
 
   explicit Column(int n)
   {
-    for (int k = 0; k < n; ++k) motion.push_back({0.1 * (k % 3), -1, 0.2, 1});
+    for (int k = 0; k < n; ++k) motion.push_back({{0.1 * (k % 3), -1}, 1, {0.2}});
     motion.push_back({});
     for (int k = 0; k < n; ++k) {
-      Contact c{};
-      c.ny = c.kappa = 1;
+      Contact<2> c{};
+      c.n[1] = c.kappa = 1;
       c.mass_n = k == 0 ? 1 : 0.5;
       c.mass_t = c.mass_n / 3;
       c.i = k;
@@ -305,7 +307,7 @@ TEST(Solver, AccelerationFindsTheSameSolutionWithAFifthOfTheSweeps)
     for (std::size_t k = 0; k < plain.contacts.size(); ++k) {
       EXPECT_NEAR(accelerated.contacts[k].impulse_n,
                   static_cast<double>(n) - static_cast<double>(k), 1e-5);
-      EXPECT_NEAR(accelerated.motion[k].vx, plain.motion[k].vx, 1e-5);
+      EXPECT_NEAR(accelerated.motion[k].v[0], plain.motion[k].v[0], 1e-5);
     }
     EXPECT_EQ(accelerated.motion.size(), plain.motion.size());
   }
@@ -317,8 +319,8 @@ TEST(Solver, AccelerationLeavesASolutionAlone)
   column.sweeps(true);
   auto again = column;
   for (auto& m : again.motion)
-    if (m.inverse_mass > 0) m = {0, -1, 0, 1};
-  for (auto& c : again.contacts) c.impulse_t = 0;
+    if (m.inverse_mass > 0) m = {{0, -1}, 1};
+  for (auto& c : again.contacts) c.impulse_t[0] = 0;
   EXPECT_LE(again.sweeps(true), 12);
   for (std::size_t k = 0; k < 10; ++k)
     EXPECT_NEAR(again.contacts[k].impulse_n, column.contacts[k].impulse_n, 1e-8);

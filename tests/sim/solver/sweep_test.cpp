@@ -12,20 +12,20 @@
 namespace grseg {
 namespace {
 
-std::vector<std::uint64_t> bits_of(const std::vector<Motion>& motion)
+std::vector<std::uint64_t> bits_of(const std::vector<Motion<2>>& motion)
 {
   std::vector<std::uint64_t> bits;
   for (const auto& m : motion)
-    for (const double x : {m.vx, m.vy, m.rim_speed, m.inverse_mass})
+    for (const double x : {m.v[0], m.v[1], m.rim[0], m.inverse_mass})
       bits.push_back(std::bit_cast<std::uint64_t>(x));
   return bits;
 }
 
-std::vector<std::uint64_t> bits_of(const std::vector<Contact>& contacts)
+std::vector<std::uint64_t> bits_of(const std::vector<Contact<2>>& contacts)
 {
   std::vector<std::uint64_t> bits;
   for (const auto& c : contacts)
-    for (const double x : {c.impulse_n, c.impulse_t})
+    for (const double x : {c.impulse_n, c.impulse_t[0]})
       bits.push_back(std::bit_cast<std::uint64_t>(x));
   return bits;
 }
@@ -38,10 +38,10 @@ FrozenProblem problem(std::size_t count = 5459)
   auto p = read;
   p.contacts.resize(count);
   const auto wall = static_cast<std::int32_t>(p.motion.size());
-  p.motion.push_back({0.01, -0.02, 0, 0});
+  p.motion.push_back({{0.01, -0.02}});
   for (std::int32_t g = 100; g < 120; ++g) {
-    Contact c{};
-    c.nx = 0.6, c.ny = 0.8, c.kappa = 1;
+    Contact<2> c{};
+    c.n[0] = 0.6, c.n[1] = 0.8, c.kappa = 1;
     c.mass_n = 1 / p.motion[static_cast<std::size_t>(g)].inverse_mass;
     c.mass_t = c.mass_n / 3;
     c.rebound = 0.001;
@@ -63,9 +63,9 @@ std::vector<std::uint64_t> swept(FrozenProblem p, Effects effects)
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
   SweepResult result;
   for (int s = 0; s < sweeps; ++s)
-    result = choose_sweep(effects)(packed.runs(), p.motion.data(), p.friction);
+    result = choose_sweep<2>(effects)(packed.runs(), p.motion.data(), p.friction);
   packed.unpack(p.contacts);
-  EXPECT_EQ(bits_of({p.motion.back()}), bits_of(std::vector<Motion>{{}}));
+  EXPECT_EQ(bits_of({p.motion.back()}), bits_of(std::vector<Motion<2>>{{}}));
   auto bits = bits_of(p.motion), impulses = bits_of(p.contacts);
   bits.insert(bits.end(), impulses.begin(), impulses.end());
   for (const double x : {result.largest, result.sum_squares, result.sum_reference})
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> swept(FrozenProblem p, Effects effects)
 /// over the contacts of one lane.
 std::vector<std::uint64_t> relaxed(FrozenProblem p, Effects effects)
 {
-  const auto relax_alone = choose_relax(effects);
+  const auto relax_alone = choose_relax<2>(effects);
   p.motion.emplace_back();
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
@@ -95,13 +95,13 @@ std::vector<std::uint64_t> relaxed(FrozenProblem p, Effects effects)
       const auto r = relax_alone(alone, p.motion[static_cast<std::size_t>(c.i)],
                                  p.motion[static_cast<std::size_t>(c.j)], p.friction);
       c.impulse_n = alone.impulse_n;
-      c.impulse_t = alone.impulse_t;
-      largest = std::max({largest, r.change_n, r.change_t});
+      c.impulse_t[0] = alone.impulse_t[0];
+      largest = std::max({largest, r.change_n, std::abs(r.change_t[0])});
       squares[slot % 8] += r.change_n * r.change_n;
       reference[slot % 8] += r.level_n * r.level_n;
       if (!effects.friction) continue;
-      squares[slot % 8] += r.change_t * r.change_t;
-      reference[slot % 8] += r.level_t * r.level_t;
+      squares[slot % 8] += r.change_t[0] * r.change_t[0];
+      reference[slot % 8] += r.level_t[0] * r.level_t[0];
     }
   }
   auto bits = bits_of(p.motion), impulses = bits_of(p.contacts);
@@ -149,11 +149,11 @@ TEST_P(SweepOn, AnyNumberOfContactsFitsIntoBlocks)
 TEST_P(SweepOn, ABodyWithMoreContactsThanColoursIsSweptOneByOne)
 {
   FrozenProblem p;
-  p.motion.assign(201, {0, 0, 0, 1});
-  p.motion[0] = {1, -2, 0.5, 0.01};
+  p.motion.assign(201, {{0, 0}, 1});
+  p.motion[0] = {{1, -2}, 0.01, {0.5}};
   for (std::int32_t g = 1; g <= 200; ++g) {
-    Contact c{};
-    c.nx = std::cos(g), c.ny = std::sin(g), c.kappa = 1;
+    Contact<2> c{};
+    c.n[0] = std::cos(g), c.n[1] = std::sin(g), c.kappa = 1;
     c.mass_n = 1 / 1.01;
     c.mass_t = c.mass_n / 3;
     c.i = g, c.j = 0;
@@ -181,7 +181,7 @@ TEST_P(SweepOn, FrictionLeftOutEqualsZeroFrictionToTheLastBit)
     p->motion.emplace_back();
     packed.pack(p->contacts, p->motion, p->motion.size() - 1);
     const Effects effects{.friction = p == &with};
-    for (int s = 0; s < sweeps; ++s) choose_sweep(effects)(packed.runs(), p->motion.data(), 0);
+    for (int s = 0; s < sweeps; ++s) choose_sweep<2>(effects)(packed.runs(), p->motion.data(), 0);
     packed.unpack(p->contacts);
   }
   EXPECT_EQ(bits_of(with.motion), bits_of(without.motion));
@@ -195,13 +195,13 @@ TEST_P(SweepOn, ImpulsesAppliedMoveTheBodiesAsRelaxingDid)
   const auto start = p.motion;
   ContactBlocks packed;
   packed.pack(p.contacts, p.motion, p.motion.size() - 1);
-  for (int s = 0; s < 50; ++s) choose_sweep({})(packed.runs(), p.motion.data(), p.friction);
+  for (int s = 0; s < 50; ++s) choose_sweep<2>({})(packed.runs(), p.motion.data(), p.friction);
   auto again = start;
-  apply_impulses(packed.blocks(), again.data(), {});
+  apply_impulses<2>(packed.blocks(), again.data(), {});
   for (std::size_t g = 0; g < start.size(); ++g) {
-    EXPECT_NEAR(again[g].vx, p.motion[g].vx, 1e-13);
-    EXPECT_NEAR(again[g].vy, p.motion[g].vy, 1e-13);
-    EXPECT_NEAR(again[g].rim_speed, p.motion[g].rim_speed, 1e-13);
+    EXPECT_NEAR(again[g].v[0], p.motion[g].v[0], 1e-13);
+    EXPECT_NEAR(again[g].v[1], p.motion[g].v[1], 1e-13);
+    EXPECT_NEAR(again[g].rim[0], p.motion[g].rim[0], 1e-13);
   }
 }
 

@@ -12,11 +12,11 @@ namespace {
 using namespace worlds;
 
 /// A contact of a disc whose other body is in the direction `angle`, measured from the downward vertical.
-Contact at_angle(double angle)
+Contact<2> at_angle(double angle)
 {
-  Contact contact{};
-  contact.nx = -std::sin(angle);
-  contact.ny = std::cos(angle);
+  Contact<2> contact{};
+  contact.n[0] = -std::sin(angle);
+  contact.n[1] = std::cos(angle);
   contact.kappa = 1;
   return contact;
 }
@@ -34,7 +34,7 @@ TEST(WedgedGrains, FrictionLocksADiscWhereItsConesHoldTheLineBetweenItsContacts)
 /// from the middle; it falls at speed 1.
 struct OverAGap {
   std::vector<Disc> discs;
-  World world;
+  World<2> world;
   double sine;  // sine of the angle between the line of centres and the horizontal
   explicit OverAGap(double half)
       : discs{{{-half, 0}, 1, true}, {{half, 0}, 1, true}, {{0, 0}, 0.5}},
@@ -52,7 +52,7 @@ TEST(WedgedGrains, ADiscThatFrictionLocksStopsInOneStepWithForcesThatItsMomentum
   // The tan of the angle between line and normals is 0.32, below mu = 0.5. Two forces along the
   // normals alone would be m v/(2 sine) each; friction carries a part.
   const OverAGap scene(1.43);
-  Simulation simulation(scene.world, positions_of(scene.discs));
+  Simulation<2> simulation(scene.world, positions_of(scene.discs));
   simulation.set_velocity(2, {0, -1});
   Frame<2> frame;
   const auto report = simulation.advance(frame);
@@ -70,7 +70,7 @@ TEST(WedgedGrains, ALockedDiscStopsWithinTheSweepsOfAFlow)
 {
   OverAGap scene(1.43);
   scene.world.solver = {.tolerance = 0.5, .max_sweeps = 8, .min_sweeps = 8};
-  Simulation simulation(scene.world, positions_of(scene.discs));
+  Simulation<2> simulation(scene.world, positions_of(scene.discs));
   simulation.set_velocity(2, {0, -1});
   simulation.advance();
   EXPECT_NEAR(simulation.velocity(2).norm(), 0, 1e-3);
@@ -79,7 +79,7 @@ TEST(WedgedGrains, ALockedDiscStopsWithinTheSweepsOfAFlow)
 TEST(WedgedGrains, BetweenBodiesThatPartADiscBearsNothing)
 {
   OverAGap scene(1.43);
-  Simulation simulation(scene.world, positions_of(scene.discs));
+  Simulation<2> simulation(scene.world, positions_of(scene.discs));
   simulation.set_velocity(2, {0, -1});
   simulation.advance();
   simulation.set_velocity(0, {-1e-3, 0});
@@ -92,7 +92,7 @@ TEST(WedgedGrains, ADiscThatFrictionCannotLockRebounds)
 {
   // The tan of the angle is 0.97.
   const OverAGap scene(1.08);
-  Simulation simulation(scene.world, positions_of(scene.discs));
+  Simulation<2> simulation(scene.world, positions_of(scene.discs));
   simulation.set_velocity(2, {0, -1});
   simulation.advance();
   EXPECT_GT(simulation.velocity(2).y(), 0.1);

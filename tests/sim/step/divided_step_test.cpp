@@ -21,15 +21,15 @@ using worlds::world_of;
 /// Two equal discs of diameter 1 on a line; the first moves at `diameters` per step towards the
 /// second and hits it head-on.
 struct Collision {
-  World world;
-  Simulation simulation;
+  World<2> world;
+  Simulation<2> simulation;
 
   Collision(double diameters, LawParameters law)
       : world(world_with(law)), simulation(world, {{-8.3, 0}, {0, 0}})
   {
     simulation.set_velocity(0, {diameters / world.step, 0});
   }
-  static World world_with(LawParameters law)
+  static World<2> world_with(LawParameters law)
   {
     auto world = world_of({{{-8.3, 0}, 0.5}, {{0, 0}, 0.5}});
     world.material = {0, 0.25};
@@ -72,7 +72,7 @@ TEST(DividedStep, IsTheSameAsStepsOfThatLength)
   Collision whole(0.9, law), halves(0.9, law);
   auto world = halves.world;
   world.step /= 2;
-  Simulation by_halves(world, {{-8.3, 0}, {0, 0}});
+  Simulation<2> by_halves(world, {{-8.3, 0}, {0, 0}});
   by_halves.set_velocity(0, halves.simulation.velocity(0));
   int divided = 0;
   for (int step = 0; step < 12; ++step) {
@@ -86,14 +86,14 @@ TEST(DividedStep, IsTheSameAsStepsOfThatLength)
 }
 
 /// Gives the n-th mobile grain a high velocity into the bed.
-void shoot(Simulation& bed, int n)
+void shoot(Simulation<2>& bed, int n)
 {
   const auto& fixed = bed.world().grains.fixed;
   for (std::size_t g = 0; g < fixed.size(); ++g)
     if (!fixed[g] && n-- == 0) bed.set_velocity(g, {60, -60});
 }
 
-Simulation bed_with_a_bullet(const Scene& scene)
+Simulation<2> bed_with_a_bullet(const Scene& scene)
 {
   auto bed = small_chute::bed(scene);
   for (int k = 0; k < 50; ++k) bed.advance();
@@ -108,7 +108,7 @@ TEST(DividedStep, ARestartBetweenDividedStepsChangesNoBit)
     auto bed = bed_with_a_bullet(scene);
     int before = 0, after = 0;
     for (int k = 0; k < 2; ++k) before += bed.advance().parts > 1;
-    Simulation again(bed.world(), bed.state());
+    Simulation<2> again(bed.world(), bed.state());
     for (auto* simulation : {&bed, &again}) shoot(*simulation, 10);
     for (int k = 0; k < 30; ++k) {
       after += bed.advance().parts > 1;
@@ -126,7 +126,7 @@ TEST(DividedStep, ARestartBetweenDividedStepsChangesNoBit)
 
 /// Force m (v - v_before)/h on grains that the projectile hits, in units of the last digit of the
 /// velocities, N.
-double last_digits_of_a_force(const Simulation& bed)
+double last_digits_of_a_force(const Simulation<2>& bed)
 {
   const auto& mass = bed.world().grains.mass;
   const double speed = 60 * std::sqrt(2);
@@ -150,7 +150,7 @@ TEST(DividedStep, AFrameIsItsLastPartAndForcesBalanceInIt)
   for (int k = 0; k < 30; ++k) {
     const double begin = bed.time();
     const auto report = bed.advance(frame);
-    EXPECT_LT(momentum_defect(world.grains, frame, world.gravity),
+    EXPECT_LT(momentum_defect<2>(world.grains, frame, world.gravity),
               1e-12 + last_digits_of_a_force(bed) / largest_force(frame));
     EXPECT_NEAR(frame.time, begin + world.step - bed.written_step() / 2, 1e-12);
     EXPECT_EQ(bed.world().step, world.step);
@@ -172,7 +172,7 @@ TEST(DividedStep, ABedAtRestKnowsItsLoadInAPartOfAStep)
   world.gravity = {0, -10};
   world.step = 1e-3;
   world.solver = {1e-12, 8};
-  Simulation simulation(world, positions_of(discs));
+  Simulation<2> simulation(world, positions_of(discs));
   const auto speed = [&] {
     double largest = 0;
     for (std::size_t k = 2; k < discs.size(); ++k)

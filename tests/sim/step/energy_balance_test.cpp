@@ -11,7 +11,7 @@ using worlds::Disc;
 
 /// Two discs above a floor; the upper one spins and hits the lower one.
 struct Impact {
-  World world = worlds::world_of({{{0, 0.4999}, 0.5}, {{0.3, 1.45}, 0.5}});
+  World<2> world = worlds::world_of({{{0, 0.4999}, 0.5}, {{0.3, 1.45}, 0.5}});
   Frame<2> frame;
   EnergyBalance balance;
 
@@ -20,10 +20,11 @@ struct Impact {
     world.gravity = {1, -9.8};
     world.material.restitution = restitution;
     world.walls = {worlds::floor_at(0)};
-    Simulation simulation(world, {{0, 0.4999}, {0.3, 1.45}});
+    Simulation<2> simulation(world, {{0, 0.4999}, {0.3, 1.45}});
     simulation.set_velocity(1, {0.2, -2}, 3);
     simulation.advance(frame);
-    balance = energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+    balance =
+        energy_balance<2>(world.grains, frame, simulation.before(), world.gravity, world.step);
   }
 };
 
@@ -41,11 +42,11 @@ TEST(EnergyBalance, TheWorkOfGravityIsTheWeightTimesTheWay)
 {
   auto world = worlds::world_of({{{0, 9}, 0.5}});
   world.gravity = {0, -9.8};
-  Simulation simulation(world, {{0, 9}});
+  Simulation<2> simulation(world, {{0, 9}});
   Frame<2> frame;
   simulation.advance(frame);
   const auto balance =
-      energy_balance(world.grains, frame, simulation.before(), world.gravity, world.step);
+      energy_balance<2>(world.grains, frame, simulation.before(), world.gravity, world.step);
   EXPECT_NEAR(balance.work_of_gravity,
               world.grains.mass[0] * 9.8 * (9 - simulation.position(0).y()), 1e-12);
   EXPECT_EQ(balance.work_of_contacts, 0);
@@ -56,12 +57,12 @@ TEST(EnergyBalance, AForceThatIsMissingShowsAsADefect)
   Impact impact(0.25);
   auto without = impact.frame;
   without.contacts.force[1] *= 0.99;
-  Simulation simulation(impact.world, {{0, 0.4999}, {0.3, 1.45}});
+  Simulation<2> simulation(impact.world, {{0, 0.4999}, {0.3, 1.45}});
   simulation.set_velocity(1, {0.2, -2}, 3);
   Frame<2> again;
   simulation.advance(again);
-  const auto balance = energy_balance(impact.world.grains, without, simulation.before(),
-                                      impact.world.gravity, impact.world.step);
+  const auto balance = energy_balance<2>(impact.world.grains, without, simulation.before(),
+                                         impact.world.gravity, impact.world.step);
   EXPECT_GT(balance.defect(), 1e-4);
 }
 

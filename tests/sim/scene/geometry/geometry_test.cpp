@@ -19,20 +19,20 @@ Scene scene_from(std::vector<std::string> words)
   return small_chute::paper_scene(words);
 }
 
-Simulation released(const Scene& scene)
+Simulation<2> released(const Scene& scene)
 {
-  return release(deposit(scene), scene);
+  return release(deposit<2>(scene), scene);
 }
 
 template <class Keep>
-std::size_t count_grains(const Simulation& simulation, Keep keep)
+std::size_t count_grains(const Simulation<2>& simulation, Keep keep)
 {
   std::size_t count = 0;
   for (std::size_t g = 0; g < simulation.world().grains.size(); ++g) count += keep(g) ? 1 : 0;
   return count;
 }
 
-void run_for(Simulation& simulation, double seconds)
+void run_for(Simulation<2>& simulation, double seconds)
 {
   const double end = simulation.time() + seconds;
   while (simulation.time() < end) simulation.advance();
@@ -45,8 +45,8 @@ const std::vector<std::string> column{"--geometry",     "column", "--lateral", "
 TEST(Geometry, AColumnStandsBehindItsGateAndFallsWhenItOpens)
 {
   const auto scene = scene_from(column);
-  const auto deposited = deposit(scene);
-  const auto beyond = [&](const Simulation& s) {
+  const auto deposited = deposit<2>(scene);
+  const auto beyond = [&](const Simulation<2>& s) {
     return count_grains(s, [&](std::size_t g) {
       return !s.world().grains.fixed[g] && s.position(g).x() > scene.column_width;
     });
@@ -63,8 +63,8 @@ TEST(Geometry, AHopperHoldsItsGrainsUntilItsOutletOpens)
 {
   const auto scene = scene_from({"--geometry", "hopper", "--lateral", "walls", "--length", "20dL",
                                  "--depth", "16dS", "--outlet", "12dS"});
-  const auto deposited = deposit(scene);
-  const auto below = [&](const Simulation& s) {
+  const auto deposited = deposit<2>(scene);
+  const auto below = [&](const Simulation<2>& s) {
     return count_grains(s, [&](std::size_t g) {
       return !s.world().grains.fixed[g] && s.position(g).y() < -scene.large_diameter;
     });
@@ -175,7 +175,7 @@ TEST(Geometry, AShearCellIsReleasedInALinearFlow)
 {
   const auto scene = scene_from(
       {"--geometry", "shear", "--length", "10dL", "--depth", "16dS", "--plate-speed", "5"});
-  const auto deposited = deposit(scene);
+  const auto deposited = deposit<2>(scene);
   const auto simulation = release(deposited, scene);
   const auto& grains = simulation.world().grains;
   const double height = simulation.position(grains.size() - 1).y();
@@ -225,7 +225,7 @@ TEST(Geometry, ARestartedShearCellContinuesBitwise)
   const auto scene = scene_from({"--geometry", "shear", "--length", "6dL", "--depth", "8dS"});
   auto through = released(scene);
   run_for(through, 0.1);
-  Simulation again(through.world(), through.state());
+  Simulation<2> again(through.world(), through.state());
   again.drive(bodies_of(scene, again.world().grains));
   run_for(through, 0.1);
   run_for(again, 0.1);

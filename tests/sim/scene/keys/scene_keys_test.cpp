@@ -110,7 +110,7 @@ TEST(Scene, ASlopeThatTurnsIsStoredAndMustTurnSlowly)
 {
   const auto scene = scene_from({"--slope", "0", "--slope-rate", "5"});
   EXPECT_EQ(to_parameters(scene).numbers.at("slope_rate").at(0), 5);
-  const auto later = gravity_of(scene).at(6);  // at 30 degrees
+  const auto later = gravity_of<2>(scene).at(6);  // at 30 degrees
   EXPECT_NEAR(later.x(), 4.9, 1e-12);
   for (const auto& words : {std::vector<std::string>{"--slope-rate", "5000"},
                             {"--slope-rate", "5", "--geometry", "shear"}}) {

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/step/energies.hpp"
+#include "tests/hard_cases/case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+/// Spheres, whose friction is a vector of the tangent plane, against closed forms.
+namespace grseg::hard_cases {
+namespace {
+
+constexpr double g = 9.8, r = 0.5, h = 1e-3;
+
+/// Spheres of density 1 in empty space without gravity.
+World<3> world_of(const std::vector<double>& radii)
+{
+  World<3> world;
+  world.box = {100, 100, false, 3, 100, false};
+  for (const double radius : radii) {
+    world.grains.id.push_back(static_cast<std::int32_t>(world.grains.size()));
+    world.grains.species.push_back(Species::small);
+    world.grains.radius.push_back(radius);
+    world.grains.mass.push_back(grain_volume<3>(radius));
+    world.grains.fixed.push_back(0);
+  }
+  world.step = h;
+  world.solver.tolerance = 1e-13;
+  world.solver.max_sweeps = 100000;
+  return world;
+}
+
+/// A sphere that touches a plane of slope angle `slope` (radians), which falls along x.
+Simulation<3> on_a_plane(double slope, double friction)
+{
+  auto world = world_of({r});
+  world.walls = {{Vec3::Zero(), Vec3::UnitY()}};
+  world.material.friction = friction;
+  world.gravity = {g * std::sin(slope), -g * std::cos(slope), 0};
+  return {world, {{0, r, 0}}};
+}
+
+/// Velocity of the sphere's lowest point, m/s.
+Vec3 slip(const Simulation<3>& s)
+{
+  const Vec3 surface = s.velocity(0) - r * s.angular_velocity(0).cross(Vec3::UnitY());
+  return {surface.x(), 0, surface.z()};
+}
+
+TEST(SphereOnAWall, AnObliqueImpactSticksInsideTheConeAndSlidesOutside)
+{
+  Case sticks("S1", "slip after an impact that sticks, m/s"),
+      slides("S1", "speed along the wall after an impact that slides, m/s"),
+      rebound("S1", "speed away from the wall over e v_n");
+  const Vec3 along(0.6, 0, 0.8);
+  for (const double friction : {0.1, 0.5})
+    for (const double e : {0.25, 0.8})
+      for (const double ratio : {0.1, 0.9, 1.1, 5.0}) {  // over the largest one that sticks
+        auto world = world_of({r});
+        world.walls = {{Vec3::Zero(), Vec3::UnitY()}};
+        world.material = {friction, e};
+        Simulation<3> sphere(world, {{0, r + 0.01, 0}});
+        const double v_n = 2, v_t = ratio * 3.5 * friction * (1 + e) * v_n;
+        sphere.set_velocity(0, Vec3(0, -v_n, 0) + v_t * along);
+        for (int k = 0; k < 20; ++k) sphere.advance();
+        const auto v = sphere.velocity(0);
+        rebound.near(v.y() / (e * v_n), 1, 1e-13);
+        const double expected = ratio < 1 ? v_t * 5 / 7 : v_t - friction * (1 + e) * v_n;
+        slides.near(Vec3(v.x(), 0, v.z()).dot(along), expected, 1e-12);
+        if (ratio < 1) sticks.near(slip(sphere).norm(), 0, 1e-12);
+      }
+}
+
+TEST(SlidingSphere, RollsAfterTwoSeventhsOfVOverMuGAtFiveSeventhsOfItsSpeed)
+{
+  Case time("S2", "time 2v₀/(7μg) until it rolls, s"), way("S2", "way 12v₀²/(49μg) until then, m"),
+      speed("S2", "speed over 5v₀/7"), energy("S2", "part of the energy that is lost");
+  for (const double mu : {0.05, 0.2, 1.0})
+    for (const double v : {0.3, 3.0}) {
+      auto sphere = on_a_plane(0, mu);
+      const Vec3 along(0.8, 0, -0.6);
+      sphere.set_velocity(0, v * along);
+      const double before = translational_energy(sphere) + rotational_energy(sphere);
+      while (slip(sphere).norm() > 1e-12 && sphere.time() < 100) sphere.advance();
+      const double expected = 2 * v / (7 * mu * g);
+      time.near(sphere.time(), expected, h);
+      const double late = sphere.time() - expected;
+      way.near((sphere.position(0) - Vec3(0, r, 0)).dot(along) - late * 5 * v / 7,
+               12 * v * v / (49 * mu * g), mu * g * h * h / 8 * (1 + 1e-6));
+      for (int k = 0; k < 1000; ++k) sphere.advance();
+      speed.near(sphere.velocity(0).dot(along) / (5 * v / 7), 1, 1e-12);
+      energy.near(1 - (translational_energy(sphere) + rotational_energy(sphere)) / before, 2.0 / 7,
+                  1e-12);
+    }
+}
+
+TEST(SphereOnAnIncline, RollsIfTanIsAtMostSevenHalvesOfMuAndSlidesOtherwise)
+{
+  Case rolls("S3", "speed 5/7 g sin after 1 s, m/s"),
+      slides("S3", "speed g (sin − μ cos) after 1 s, m/s");
+  for (const double mu : {0.1, 0.5})
+    for (const double ratio : {0.5, 0.99, 1.01, 2.0}) {
+      const double slope = std::atan(ratio * 3.5 * mu);
+      auto sphere = on_a_plane(slope, mu);
+      for (int k = 0; k < 1000; ++k) sphere.advance();
+      const double speed = sphere.velocity(0).x();
+      if (ratio < 1)
+        rolls.near(speed, 5.0 / 7 * g * std::sin(slope), 1e-10);
+      else
+        slides.near(speed, g * (std::sin(slope) - mu * std::cos(slope)), 1e-10);
+    }
+}
+
+TEST(SpinningSphere, FollowsAParabolaUntilItRolls)
+{
+  // Friction opposes the slip u = v − rω×n, which keeps its direction, so the force is constant.
+  Case direction("S4", "sine of the angle by which the slip turns"),
+      time("S4", "time 2|u₀|/(7μg) until it rolls, s"), path("S4", "place where it rolls, m"),
+      velocity("S4", "velocity v₀ − 2u₀/7 afterwards, m/s"), spin("S4", "change of ω·n, 1/s");
+  const double mu = 0.3;
+  for (const Vec3& omega : {Vec3(4, 5, -1), Vec3(-2, 0, 6), Vec3(0, -30, 9)}) {
+    auto sphere = on_a_plane(0, mu);
+    const Vec3 v0(1, 0, 0);
+    sphere.set_velocity(0, v0, omega);
+    const Vec3 u0 = slip(sphere), along = u0.normalized();
+    const double until = 2 * u0.norm() / (7 * mu * g);
+    while (slip(sphere).norm() > 1e-12 && sphere.time() < 100) {
+      const Vec3 u = slip(sphere);
+      if (u.norm() > 1e-6) direction.near(u.cross(along).norm() / u.norm(), 0, 1e-9);
+      sphere.advance();
+    }
+    time.near(sphere.time(), until, h);
+    const Vec3 v = v0 - 2.0 / 7 * u0;
+    const Vec3 there = Vec3(0, r, 0) + until * v0 - mu * g * until * until / 2 * along;
+    const Vec3 late = (sphere.time() - until) * v;
+    path.near((sphere.position(0) - late - there).norm(), 0, mu * g * h * h / 8 * (1 + 1e-6));
+    velocity.near((sphere.velocity(0) - v).norm(), 0, 1e-12);
+    spin.near(sphere.angular_velocity(0).y() - omega.y(), 0, 1e-13 * omega.norm());
+  }
+}
+
+TEST(SpinningSphere, AboutTheNormalOnlyNeitherMovesNorSlows)
+{
+  Case way("S5", "way in 1,000 steps, m"), spin("S5", "change of its spin, 1/s");
+  auto sphere = on_a_plane(0, 0.5);
+  sphere.set_velocity(0, Vec3::Zero(), {0, 7, 0});
+  for (int k = 0; k < 1000; ++k) sphere.advance();
+  way.near((sphere.position(0) - Vec3(0, r, 0)).norm(), 0, 1e-12);
+  spin.near((sphere.angular_velocity(0) - Vec3(0, 7, 0)).norm(), 0, 1e-15);
+}
+
+/// Three touching spheres on a floor, and one on top of them.
+Simulation<3> pyramid_of_four(double friction)
+{
+  auto world = world_of({r, r, r, r});
+  world.walls = {{Vec3::Zero(), Vec3::UnitY()}};
+  world.material = {friction, 0};
+  world.gravity = {0, -g, 0};
+  std::vector<Vec3> position;
+  const double ring = 2 * r / std::sqrt(3.0);
+  for (int k = 0; k < 3; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 3;
+    position.emplace_back(ring * std::cos(angle), r, ring * std::sin(angle));
+  }
+  position.emplace_back(0, r + std::sqrt(8.0 / 3) * r, 0);
+  return {world, position};
+}
+
+TEST(PyramidOfFourSpheres, StandsIfFrictionIsAtLeastTheTangentOfHalfTheAngle)
+{
+  // The line of centres leans by alpha from the vertical, sin alpha = 1/sqrt(3). A sphere below is
+  // pushed at two points, so both forces point along the line through them: alpha/2 from the normal.
+  Case stands("S6", "sinking of the top in 1 s, diameters"),
+      falls("S6", "sinking with less friction");
+  const double limit = std::tan(std::asin(1 / std::sqrt(3.0)) / 2);
+  for (const double part : {1.01, 2.0}) {
+    auto pyramid = pyramid_of_four(part * limit);
+    const double top = pyramid.position(3).y();
+    for (int k = 0; k < 1000; ++k) pyramid.advance();
+    stands.near((top - pyramid.position(3).y()) / (2 * r), 0, 1e-6);
+  }
+  auto pyramid = pyramid_of_four(0.5 * limit);
+  const double top = pyramid.position(3).y();
+  for (int k = 0; k < 1000; ++k) pyramid.advance();
+  falls.between((top - pyramid.position(3).y()) / (2 * r), 0.1, 10);
+}
+
+TEST(ColumnOfSpheres, TheKthCarriesTheWeightOfThoseAbove)
+{
+  Case force("S7", "force under the k-th sphere over kmg"),
+      still("S7", "all other velocities, m/s");
+  constexpr int n = 10;
+  auto world = world_of(std::vector<double>(n, r));
+  world.walls = {{Vec3::Zero(), Vec3::UnitY()}};
+  world.material = {0.5, 0};
+  world.gravity = {0, -g, 0};
+  std::vector<Vec3> position;
+  for (int k = 0; k < n; ++k) position.emplace_back(0, (2 * k + 1) * r, 0);
+  Simulation<3> column(world, position);
+  Frame<3> frame;
+  for (int k = 0; k < 200; ++k) column.advance(frame);
+  const double weight = world.grains.mass[0] * g;
+  for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+    const auto upper = std::max(frame.contacts.i[c], frame.contacts.j[c]);
+    force.near(frame.contacts.force[c].norm() / ((n - upper) * weight), 1, 1e-8);
+  }
+  EXPECT_EQ(frame.contacts.size(), static_cast<std::size_t>(n));
+  for (const auto& v : frame.velocity) still.near(v.norm(), 0, 1e-9);
+}
+
+/// Sum of m v, and of m x × v + I ω.
+std::pair<Vec3, Vec3> momenta(const Simulation<3>& s)
+{
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+  const auto& grains = s.world().grains;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    const double m = grains.mass[k], inertia = 0.4 * m * grains.radius[k] * grains.radius[k];
+    linear += m * s.velocity(k);
+    angular += m * s.position(k).cross(s.velocity(k)) + inertia * s.angular_velocity(k);
+  }
+  return {linear, angular};
+}
+
+TEST(ClusterOfSpheres, KeepsMomentumAndAllComponentsOfAngularMomentum)
+{
+  Case linear("S9", "change of momentum over the sum of its sizes"),
+      angular("S9", "change of angular momentum over the sum of its sizes");
+  for (const auto precision : {Precision::doubles, Precision::mixed}) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<double> radii;
+    std::vector<Vec3> position;
+    for (int k = 0; k < 64; ++k) {
+      radii.push_back(0.3 + 0.15 * number(random));
+      position.emplace_back(k % 4 - 1.5, k / 4 % 4 - 1.5, k / 16 - 1.5);
+    }
+    auto world = world_of(radii);
+    world.material = {0.5, 0.5};
+    world.law = law_parameters(ContactLaw::speculative, 0.75, h, g, 0.3);
+    world.solver.precision = precision;
+    world.solver.tolerance = precision == Precision::doubles ? 1e-12 : 1e-5;
+    Simulation<3> cluster(world, position);
+    double size = 0, turn = 0;
+    for (std::size_t k = 0; k < position.size(); ++k) {
+      const Vec3 v = -3 * position[k] + Vec3(number(random), number(random), number(random));
+      cluster.set_velocity(k, v, 10 * Vec3(number(random), number(random), number(random)));
+      size += world.grains.mass[k] * v.norm();
+      turn += world.grains.mass[k] * v.norm() * position[k].norm();
+    }
+    const auto [p, l] = momenta(cluster);
+    std::size_t contacts = 0;
+    for (int k = 0; k < 1000; ++k) contacts += cluster.advance().force_bearing;
+    EXPECT_GT(contacts, 500u);
+    const auto [p_after, l_after] = momenta(cluster);
+    linear.near((p_after - p).norm() / size, 0, 1e-13);
+    angular.near((l_after - l).norm() / turn, 0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace grseg::hard_cases
