@@ -38,7 +38,7 @@ std::string grains_in_words(const Scene& scene, const Grains& grains)
 std::string flow_in_words(const RunSummary& s, const Scene& scene)
 {
   auto slope = gravity_of<2>(scene).norm() == 0 ? std::string("no gravity")
-                                             : fmt::format("slope {:g} degrees", scene.slope);
+                                                : fmt::format("slope {:g} degrees", scene.slope);
   if (scene.slope_rate != 0)
     slope += fmt::format(" at t = 0, {:g} per second steeper, {:.4g} at t = {:g} s",
                          scene.slope_rate, scene.slope + scene.slope_rate * s.end, s.end);
@@ -122,7 +122,8 @@ std::string effects_left_out(const Scene& scene)
   add(scene.restitution == 0 && !remembers, "restitution (its coefficient is 0)");
   add(!remembers, "memory of approaches (contacts act at once)");
   add(gravity_of<2>(scene).norm() == 0, "gravity (none)");
-  add(scene.lateral == Scene::Lateral::walls, "periodicity (the cell has ends)");
+  const bool along_z = scene.dimension == 3 && scene.sides == Scene::Lateral::periodic;
+  add(scene.lateral == Scene::Lateral::walls && !along_z, "periodicity (the cell has ends)");
   add(!moves_boundaries(scene), "moving boundaries (all stand still)");
   add(scene.dimension == 3, "resistance to spinning about a contact's normal (none)");
   return fmt::format("{}", fmt::join(all, ", "));

@@ -44,13 +44,21 @@ auto of_solver(T SolverSettings::*member)
   };
 }
 
-/// A key that scenes of discs do not have in their text.
-KeyValue in_space(KeyValue value)
+/// A key that only scenes of discs, or only scenes of spheres, have in their text.
+KeyValue of_dimension(int dimension, KeyValue value)
 {
-  value.text = [text = value.text](const Scene& scene) {
-    return scene.dimension == 3 ? text(scene) : std::string();
+  value.text = [dimension, text = value.text](const Scene& scene) {
+    return scene.dimension == dimension ? text(scene) : std::string();
   };
   return value;
+}
+KeyValue in_plane(const KeyValue& value)
+{
+  return of_dimension(2, value);
+}
+KeyValue in_space(const KeyValue& value)
+{
+  return of_dimension(3, value);
 }
 
 constexpr long most = 1000000000;
@@ -142,17 +150,17 @@ std::vector<SceneKey> boundary_keys()
          {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
      "base under the bed: grains (a row of fixed grains, by default touching large ones) or wall "
      "(straight)"},
-    {"base-diameter", "1dL", length(&Scene::base_diameter, "0.1dS", "10dL"), bed, yes,
+    {"base-diameter", "1dL", in_plane(length(&Scene::base_diameter, "0.1dS", "10dL")), bed, yes,
      "mean diameter of the grains in a bed's base"},
-    {"base-diameter-spread", "0", number(&Scene::base_diameter_spread, 0, 1), bed, yes,
+    {"base-diameter-spread", "0", in_plane(number(&Scene::base_diameter_spread, 0, 1)), bed, yes,
      "(d_max - d_min)/d of the diameters in a bed's base, uniform; tops stay at one height"},
-    {"base-height-spread", "0", length(&Scene::base_height_spread, "0", "10dL"), bed, yes,
+    {"base-height-spread", "0", in_plane(length(&Scene::base_height_spread, "0", "10dL")), bed, yes,
      "range of the tops of the grains in a bed's base: each is lowered by a random distance from 0 "
      "to this value"},
-    {"base-spacing", "", length(&Scene::base_spacing, "0.1dS", "10dL"), bed, yes,
+    {"base-spacing", "", in_plane(length(&Scene::base_spacing, "0.1dS", "10dL")), bed, yes,
      "mean distance along x between centres of grains in a bed's base, enlarged until a whole "
      "number fills the cell. Below base-diameter the grains overlap (default: base-diameter)"},
-    {"base-spacing-spread", "0", number(&Scene::base_spacing_spread, 0, 1), bed, yes,
+    {"base-spacing-spread", "0", in_plane(number(&Scene::base_spacing_spread, 0, 1)), bed, yes,
      "(max - min)/mean of the distances between centres in a bed's base, uniform"},
     {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
          {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
