@@ -53,9 +53,10 @@ class WeightSums {
   std::optional<KineticStress<D>> kinetic_;  // created when the mean velocity is known
   PartialContactStress<D> contact_;
   std::size_t frames_ = 0;
-  double time_ = 0;                  // time of the first frame, s
-  std::vector<double> mass_above_;   // sum m l over all frames, by layer, kg m
-  std::vector<Vector<D>> momentum_;  // sum m v l of the first frame, by layer, kg m^2/s
+  double time_ = 0;                 // time of the first frame, s
+  std::vector<double> mass_above_;  // sum m l over all frames, by layer, kg m
+  // Sum m v l of the first frame, by layer, kg m^2/s; l: part of the layer below the centre, m.
+  std::vector<Vector<D>> momentum_;
 };
 
 /// Measured and required stress of a layer, over all windows but the last, which only marks the end

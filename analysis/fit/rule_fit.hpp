@@ -53,7 +53,7 @@ struct RuleFit {
   std::optional<Estimate> size_exponent = {};  // exponent over all pairs (fit_pairs.hpp)
 };
 
-/// Dependence of the windows in B under this rule (confidence.hpp).
+/// Correlation between B of successive windows under this rule (confidence.hpp).
 Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
 /// Stores the error and the interval of an estimator in `fit`.

@@ -22,7 +22,8 @@ inline constexpr PresetOption micro[] = {
     {"composition", "clipped", "clipped"},
 };
 inline constexpr PresetOption derive[] = {
-    {"force", "modulus", "normal"},  // Pi is the pressure of each species for normal and ends
+    // Only with `normal` and `ends` is Pi (eqs. 8, 9) the partial pressure of a species.
+    {"force", "modulus", "normal"},
     {"average", "contacts", "ends"},
     {"partition", "uniform:0.66667", "size"},
 };

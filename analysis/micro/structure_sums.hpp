@@ -143,8 +143,9 @@ class StructureByLayer {
   Composition<D> composition_;
   double friction_;
   std::size_t frames_ = 0;
-  std::vector<StructureSums<D>> sums_;  // sums by layer, without content (see composition_)
-  BedHeights heights_{0, 0, 0};         // sums of heights over frames, m
+  // Sums by layer; their `content` stays 0, because composition_ has it.
+  std::vector<StructureSums<D>> sums_;
+  BedHeights heights_{0, 0, 0};  // sums of heights over frames, m
 };
 
 /// The sums of a map's cell, and fields for pictures: contacts per grain, mean normal force, and

@@ -41,7 +41,7 @@ struct ClosurePoint {
   double frames = 0;                 // number of frames in the window
   double weight = 0;                 // frames x area or volume of the grains
   double flux = 0;                   // q_L, m/s
-  double driving = 0, gradient = 0;  // X, m/s^2, and G, 1/m
+  double driving = 0, gradient = 0;  // driving X, m/s^2, and gradient G, 1/m (see above)
   // X and G of the same layer in the window before; NaN if there is no such window.
   double driving_before = no_number, gradient_before = no_number;
   double kinetic_push = no_number, kinetic_spread = no_number,

@@ -56,7 +56,7 @@ std::vector<Table> read_tables(const po::variables_map& values);
 /// another value.
 Header trust_of(const std::vector<Table>& tables);
 
-/// Option --trust of every tool that reads runs.
+/// Option --trust: reads runs without comparing their content with its digests.
 struct TrustOption {
   bool trust = false;
 

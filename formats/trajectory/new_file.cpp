@@ -33,7 +33,8 @@ class NewFile {
     // index on disk is updated.
     if (storage.live) H5Pset_file_space_strategy(create, H5F_FSPACE_STRATEGY_NONE, 0, 1);
     const Properties access = newest_format();
-    if (storage.live) align(access, 512);  // bytes; headers are shorter
+    // Bytes; no object header is longer, so that no two of them share a slot.
+    if (storage.live) align(access, 512);
     file_ = File(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create, access));
     if (!file_.valid())
       throw RunError(fmt::format("cannot create {}: {}", path, reason_of_failure()));

@@ -58,7 +58,7 @@ World<D> with_skin(World<D> world, double skin)
   return world;
 }
 
-/// Effects to compute: all whose coefficient is not 0.
+/// Effects to compute: those whose coefficient is not 0, or all if World::general asks for them.
 template <int D>
 Effects effects_of(const World<D>& world)
 {
@@ -392,7 +392,7 @@ template <int D>
 double Simulation<D>::unlisted_ahead(double spread)
 {
   const double half = world_.step / 2;
-  // The limit also covers listed pairs that do not act yet.
+  // `skin` is the limit for unlisted pairs, most_approach_ for listed ones that do not act yet.
   const double farthest = std::min(world_.skin, most_approach_) - world_.law.margin;
   if (spread * half <= farthest) return 0;
   forecast_positions(world_.law.forecast * world_.step + half, state_, ahead_at_end_, threads_);

@@ -138,7 +138,8 @@ class CsvTable {
   std::optional<std::int64_t> first_row_;  // number of a frame's first row, if rows replace ids
   std::size_t row_column_ = 0;             // index in columns_ of the column that rows replace
   std::vector<std::string_view> fields_;
-  std::vector<double> row_, values_;  // values by column: of the next row; of the frame's rows
+  // Values by column: of the next row; of the rows of the frame, one after the other.
+  std::vector<double> row_, values_;
   bool started_ = false;
   bool waiting_ = false;       // true: row_ is the first row of the next frame
   bool ends_in_rows_ = false;  // true: an earlier file has no line end behind its last row

@@ -92,7 +92,8 @@ struct DumpParts {
   /// One list of files in order of their first steps; or one list per processor, if several
   /// processors wrote files that begin with the same steps (% in the name of the dump).
   std::vector<std::vector<std::string>> lists;
-  std::map<std::string, std::vector<std::string>> more_rows;  // as JoinedDumps::more_rows_
+  // Files with further rows of a step, by the file that has the header of the step.
+  std::map<std::string, std::vector<std::string>> more_rows;
 };
 
 /// Sorts the files of a dump. Throws FormatError if the step of rows without a header is unknown.

@@ -178,7 +178,8 @@ class FactFinder {
     if (settings_.species.boundary || settings_.species.boundary_ids ||
         !look_.all.grains.fixed.empty())
       return;
-    if (look_.resting.empty()) return;  // without walls, ask_for_the_bed() asks (scan.cpp)
+    // No grain rests; if there are no walls either, ask_for_the_bed() asks (scan.cpp).
+    if (look_.resting.empty()) return;
     const auto question = question_of_base(look_.all.grains, look_.resting);
     // A flow between walls may have no base grains; ask only if some grains never move.
     if (facts_.walls.empty() || question.option != "--boundary none") questions_.ask(question);
