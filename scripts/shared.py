@@ -77,7 +77,7 @@ def lines_of(path):
 
 
 def numbers(cells):
-    """The cells of a row; those that are numbers are converted to float."""
+    """The cells of a row; cells that contain numbers are converted to float."""
     try:
         return [float(cell) for cell in cells]
     except ValueError:

@@ -37,10 +37,11 @@ struct PartitionSettings {
 ///                           uniform:0, uniform:1, size, contact-point, drop; also drop_total
 ///   power_large             by exponent of power_nodes() and sample; only if there are sums by power:Q
 ///
-/// The same arrays with the prefix "layer_" are means over time, by layer. Stress under uniform:p is
-/// linear in p. Returns everything else as JSON. Its entry `two` is true if the run has two species. Only
-/// then do p*, shares and B of neutral contacts have a meaning: with more species, mixed contacts with
-/// other species count, too. Throws the errors of select_fit_data and fit_points.
+/// Arrays of the same names with the prefix "layer_" are means over time, by layer. Stress under
+/// uniform:p is linear in p. Returns everything else as JSON. Its entry `two` is true if the run
+/// has two species. Only then do p*, shares and B of neutral contacts have a meaning: with more
+/// species, mixed contacts with other species count, too. Throws the errors of select_fit_data and
+/// fit_points.
 nlohmann::ordered_json partition_data(const StressTables& input, const PartitionSettings& settings,
                                       BinaryArrays& arrays);
 

@@ -142,9 +142,9 @@ std::size_t CellGrid<D>::cell_at(const Vector<D>& position) const
 /// Rows (bodies of a band and slice) that follow the one of a cell and are its neighbours.
 /// `shift_z` is added to z of their bodies.
 template <int D>
-auto CellGrid<D>::rows_after(std::int32_t band, std::int32_t slice) const -> std::vector<Row>
+auto CellGrid<D>::rows_after(std::int32_t band, std::int32_t slice) const -> Rows
 {
-  std::vector<Row> rows;
+  Rows rows;
   const auto add = [&](std::int32_t up, std::int32_t on) {
     auto other = slice + on;
     double shift = 0;

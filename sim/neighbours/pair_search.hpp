@@ -6,6 +6,8 @@
 #include "sim/neighbours/pair_list_lanes.hpp"
 #include "sim/neighbours/pairs.hpp"
 
+#include <boost/container/static_vector.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -60,7 +62,8 @@ class CellGrid {
     std::int32_t band, slice;
     double shift_z;  // m
   };
-  std::vector<Row> rows_after(std::int32_t band, std::int32_t slice) const;
+  using Rows = boost::container::static_vector<Row, 4>;
+  Rows rows_after(std::int32_t band, std::int32_t slice) const;
   std::size_t cell_at(const Vector<D>& position) const;
   std::size_t cell(std::int32_t column, std::int32_t band, std::int32_t slice) const
   {

@@ -65,7 +65,7 @@ Packing without(Packing packing, const std::vector<std::size_t>& rows)
   return packing;
 }
 
-/// The same grains, without rows for absent ones.
+/// Grains as above, without rows for absent ones.
 Packing compacted(const Packing& packing)
 {
   Packing rest;

@@ -32,7 +32,7 @@ Finding judge_contacts(const CheckSeries& series)
       "contacts", std::max(distance, gap), widest_gap,
       fmt::format("grains that exert a force on each other are up to {:.2g} of the smaller radius "
                   "apart, and their distances differ by up to {:.2g} "
-                  "from those that the archive states",
+                  "from the distances that the archive states",
                   gap, distance));
   if (distance > largest_distance) finding.verdict = Verdict::failed;
   return finding;

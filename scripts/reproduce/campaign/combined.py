@@ -77,7 +77,7 @@ def an_author_may_have_tried(found):
 
 
 def meeting_most(found):
-    """The row with the highest likelihood among those that meet most targets."""
+    """The row with the highest likelihood, of the rows that meet the most targets."""
     return max(an_author_may_have_tried(found), key=lambda row: (row["met"], row["log_likelihood"]))
 
 

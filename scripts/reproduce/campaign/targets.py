@@ -58,7 +58,7 @@ def number(name, statement, value, digits, why, one_of=None, numbers=()):
 
 
 def judged(m, section):
-    """Yields the targets of a section; sets by_likely_choices of those that the choices meeting most of the paper's numbers meet."""
+    """Yields the targets of a section. Sets by_likely_choices if the choices that meet most of the paper's numbers meet the target."""
     for target in section(m):
         target.by_likely_choices = bool(target.numbers) and m.likely is not None and all(combined.meets(m.likely, name) for name in target.numbers)
         yield target

@@ -55,7 +55,7 @@ TEST(IntervalByHand, TheSlopeOfBFallsWhereOtherContactsGrow)
               1. / 3 * 5. / 3, 1e-3);
 }
 
-// The same with four runs; in each, sigma^L is larger or smaller throughout.
+// Four runs of this kind; in each run sigma^L is larger or smaller throughout.
 TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatOfEachRun)
 {
   std::vector<Table> tables;

@@ -98,7 +98,7 @@ TEST(Kinship, OtherGrainsAreAnotherRunUnlessTheyComeAndGo)
             Kinship::untold);
 }
 
-// The same command may have run in different folders with different seeds.
+// Two runs of one command, in different folders, may have different seeds.
 TEST(Kinship, EqualCommandsOfOlderTablesProveNothing)
 {
   EXPECT_EQ(kin(source_of("1", {sim}), source_of("2", {sim})), Kinship::untold);
