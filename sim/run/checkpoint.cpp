@@ -36,7 +36,8 @@ struct Row<Eigen::Matrix<double, n, 1>> {
   static constexpr hsize_t columns = n;
 };
 template <>
-struct Row<SpherePosition> : Row<Eigen::Vector4d> {};
+struct Row<SpherePosition> : Row<Eigen::Vector4d> {
+};
 template <class T, std::size_t n>
 struct Row<std::array<T, n>> {
   using Number = T;

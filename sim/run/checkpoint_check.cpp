@@ -192,8 +192,8 @@ class Check {
   void in_scene(const Scene& scene) const
   {
     require(c_.box.dimension == scene.dimension,
-            fmt::format("/box/dimension is {}, and the dimension of /scene is {}",
-                        c_.box.dimension, scene.dimension));
+            fmt::format("/box/dimension is {}, and the dimension of /scene is {}", c_.box.dimension,
+                        scene.dimension));
     require(c_.state.steps_done >= 0 && c_.state.steps_done <= scene.steps_in_all(),
             fmt::format("/state/steps_done is {}, and the run has {} steps", c_.state.steps_done,
                         scene.steps_in_all()));

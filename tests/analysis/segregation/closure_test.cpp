@@ -296,7 +296,8 @@ TEST(SegregationClosure, RunsWhoseTablesDoNotBelongTogetherAreRefused)
   expect_refusal({a.segregation, a.stress, b.segregation, b.stress}, "all numbers are the same");
   auto shorter = a.stress;
   shorter.rows.resize(50);
-  expect_refusal({a.segregation, shorter}, "there is no row for the layer from 0 to 0.02 m from 6.25");
+  expect_refusal({a.segregation, shorter},
+                 "there is no row for the layer from 0 to 0.02 m from 6.25");
   auto thicker = a.stress;
   for (auto& [key, value] : thicker.header)
     if (key == "layer") value = "0.01";

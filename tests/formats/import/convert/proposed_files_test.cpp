@@ -74,12 +74,12 @@ TEST_F(NamedFiles, OfLammpsAndLiggghtsAreToldByTheirColumns)
 TEST_F(NamedFiles, ThatNoFormatKnowsAreNamedWithTheirFirstLine)
 {
   const auto text = folder.write("notes.txt", "what I did\n");
-  EXPECT_TRUE(
-      mentions(asked(unnamed("", {grains, text})),
-               text + ": its content is not recognised by its first line, 'what I did'; name it with "
-                      "--grains or --contacts, and its --format"));
-  EXPECT_TRUE(
-      mentions(asked(unnamed("liggghts", {grains, text})), "is not recognised as that of --format liggghts"));
+  EXPECT_TRUE(mentions(
+      asked(unnamed("", {grains, text})),
+      text + ": its content is not recognised by its first line, 'what I did'; name it with "
+             "--grains or --contacts, and its --format"));
+  EXPECT_TRUE(mentions(asked(unnamed("liggghts", {grains, text})),
+                       "is not recognised as that of --format liggghts"));
   const auto table = folder.write("c.csv", "i,j,fx,fy\n");
   EXPECT_TRUE(mentions(asked(unnamed("", {grains, table})), "the files are not of one program"));
   auto s = unnamed("lammps", {grains});

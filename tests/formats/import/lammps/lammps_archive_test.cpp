@@ -392,7 +392,8 @@ TEST_F(Lammps, DimensionlessUnitsMustBeGiven)
 {
   auto s = settings(folder, "ITEM: UNITS\nlj\n" + grains_at(0), contacts_at(0));
   s.units.reset();
-  EXPECT_TRUE(mentions(refusal(s).sentence, "the size of its units 'lj': --units LENGTH:TIME:MASS"));
+  EXPECT_TRUE(
+      mentions(refusal(s).sentence, "the size of its units 'lj': --units LENGTH:TIME:MASS"));
   s.units = "0.5:0.1:2";
   const auto frame = frame_of(s);
   EXPECT_NEAR(frame.position[1].y(), 0.005 * 0.5, 1e-17);
