@@ -346,7 +346,8 @@ MeanOfWindows BalanceSummary<D>::zero() const
   for (const auto& window : windows_) sum += window.over_share;
   const double zero = sum.zero(),
                per_window = (sum.none - sum.all) / static_cast<double>(windows_.size());
-  // Linearized estimates of p* from single windows; their mean is p*.
+  // One estimate of p* per window, linear in its forces. Their mean is p*; their scatter gives
+  // the interval.
   const auto left = series([&](const Forces& window) {
     const auto& [none, all] = window.over_share;
     return zero + (none - zero * (none - all)) / per_window;

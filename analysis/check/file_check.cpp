@@ -32,7 +32,7 @@ std::vector<CheckLine> ContentCheck::lines() const
   auto damage = run_.damage_outside_frames();
   const bool whole = damage.empty();
   if (whole)
-    damage = closed ? "what the file holds once agrees with its digests and its seal"
+    damage = closed ? "everything outside the frames agrees with its digests and the seal"
                     : "what the file holds once agrees with its digest";
   return {missing, empty, of_frames, judged("damaged_outside_frames", whole ? 0 : 1, 0, damage)};
 }

@@ -236,7 +236,7 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
   };
   const char* no_velocities =
       has_force_ ? nullptr
-                 : "the file holds no `force` of grains, so no velocities before the step";
+                 : "the file holds no `force` of grains, so velocities before the step are unknown";
   const char* no_restitution =
       rules_.restitution ? nullptr : "the file holds no /parameters/restitution";
   add(named("coulomb_largest"), named("coulomb_mean"), contacts_.coulomb, 1,
@@ -310,7 +310,7 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
     for (double& value : values) value /= unit;
     const auto [change, error] = change_over(means.time, values);
     auto line = judge_.statistical(check, change, error, means.time.size() - 1, 1);
-    line.remark = "slope times the time it is taken over";
+    line.remark = "slope of the trend times its duration";
     lines.push_back(line);
   };
   add_change(named("overlap_drift"), means.overlap, small_diameter_);
@@ -319,7 +319,8 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
   else
     lines.push_back(skipped(named("energy_defect_drift").name, no_energy_defect));
   if (!(gravity_.norm() > 0))
-    return skip({named("x_drift"), named("z_drift")}, "without gravity it has no scale", lines);
+    return skip({named("x_drift"), named("z_drift")}, "without gravity a drift has no scale",
+                lines);
   const double speed = std::sqrt(gravity_.norm() * small_diameter_);
   for (const auto& [check, rates] : {std::pair{named("x_drift"), &means.stray_rate},
                                      {named("z_drift"), &means.stray_rate_across}}) {

@@ -83,8 +83,9 @@ struct WindowSums {
 };
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
 
-/// Dependence (confidence.hpp) of the windows in B. If partial stresses do not add up to the whole,
-/// there is no B, and the dependence is that in the mean of ln(y/x).
+/// How far the windows' contributions to B depend on each other (Dependence, confidence.hpp). If
+/// partial stresses do not add up to the whole, there is no B; then contributions to the mean of
+/// ln(y/x) are used (y stress ratio, x = phi_S/phi_L).
 Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up);
 
 /// Estimators from WindowSums::total(); they equal estimators_of(points).

@@ -23,8 +23,9 @@ namespace {
 
 using SumsOfRow = std::function<ContactSums<3>(std::size_t)>;
 
-/// Reader of kinetic sums as contact sums without mixed contacts. If all grains have one density,
-/// the table has no areas or volumes; masses, which have the same ratios, replace them.
+/// Returns a function that reads the kinetic sums of a row as contact sums without mixed contacts.
+/// If all grains have one density, the table has no areas or volumes; masses, which have the same
+/// ratios, replace them.
 SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
 {
   const auto column = [&table](const std::string& name) {
@@ -324,8 +325,8 @@ std::string estimand_words(Population over, std::size_t flows)
     case Population::automatic:
       break;
     case Population::windows:
-      return "B of these very runs, had they lasted longer; from the scatter of windows inside runs: "
-             "how other runs would differ is not in it";
+      return "B of these runs, if they had lasted longer; from the scatter of windows inside runs, so "
+             "it does not include how other runs would differ";
     case Population::runs:
       return "B of one flow, over all its runs; from the scatter of runs";
     case Population::flows:

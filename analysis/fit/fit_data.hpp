@@ -21,7 +21,7 @@ namespace grseg {
 /// estimated. Runs that differ only in their seed belong to one flow.
 enum class Population {
   automatic,     ///< `windows` for one run, `runs` for several of one flow, `flows` for several
-  windows,       ///< these very runs, had they lasted longer
+  windows,       ///< these very runs, if they had lasted longer
   runs,          ///< all runs that one flow could have
   flows,         ///< all runs that these flows could have, each flow with its weight in the data
   equal_flows,   ///< all runs that these flows could have, all flows with the same weight
@@ -29,7 +29,7 @@ enum class Population {
   compositions,  ///< all runs, if B is one function of composition that is common to all flows
 };
 inline constexpr Choice<Population> populations[] = {
-    {"windows", Population::windows, "these runs, had they lasted longer"},
+    {"windows", Population::windows, "these runs, if they had lasted longer"},
     {"runs", Population::runs, "all runs that this flow could have"},
     {"flows", Population::flows, "all runs of these flows, each flow with its weight in the data"},
     {"equal-flows", Population::equal_flows, "all runs of these flows, all flows weighted equally"},

@@ -22,8 +22,8 @@
 namespace grseg {
 namespace {
 
-/// A header line of a table in which flows may differ: its key, unit and meaning, and the largest
-/// difference between two numbers of one flow, relative to the larger number.
+/// A header line of a table that tells flows apart: its key, unit and meaning, and the largest
+/// relative difference that still counts as one flow.
 struct FlowLine {
   const char *key, *unit, *what;
   double tolerance = 1e-6;

@@ -54,7 +54,8 @@ enum class Pool {
   windows,      ///< all windows and tables, separately for each layer and for the whole bed
   composition,  ///< layers of all windows and tables in the same of ten equal bins of phi_L
 };
-/// Merged rows: means weighted by frames. `composition` leaves out empty layers and the whole bed.
+/// One row for all rows that `pool` puts together: their means, weighted by frames. `composition`
+/// leaves out empty layers and the row of the whole bed.
 template <int D>
 std::vector<SumsRow<D>> pooled(const std::vector<SumsRow<D>>& rows, Pool pool);
 

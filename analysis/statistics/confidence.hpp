@@ -45,8 +45,8 @@ struct Measured {
 /// degrees below least_degrees.
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
 
-/// Error of a statistic with independent observations about a slow trend, which is not an error. It
-/// uses successive differences (von Neumann 1941): error^2 = n/(n - 1) sum (difference)^2/2 with
+/// Error of a statistic whose observations scatter independently about a slow trend. Successive
+/// differences (von Neumann 1941) leave the trend out: error^2 = n/(n - 1) sum (difference)^2/2 with
 /// 2 (n - 1)/3 degrees of freedom.
 StandardError error_about_trend(const Eigen::VectorXd& influence);
 

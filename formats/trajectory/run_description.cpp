@@ -8,8 +8,8 @@
 namespace grseg {
 namespace {
 
-/// Adds parameters in alphabetical order, numbers before texts: those known only at the end, or all
-/// others. `complete` is skipped, because it only repeats that there is a seal.
+/// Adds the parameters that are known only at the end, or else all others, in alphabetical order,
+/// numbers before texts. `complete` is skipped, because it only repeats that there is a seal.
 void add_parameters(Digester& digester, const Parameters& parameters, bool known_at_end)
 {
   const auto add = [&](const auto& all) {

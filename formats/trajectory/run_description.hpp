@@ -45,7 +45,7 @@ std::uint64_t static_digest(const RunDescription& run);
 struct Seal {
   std::uint64_t frames = 0, contacts = 0;
   std::uint64_t chain = 0;   // frame_digest() of the last frame
-  std::uint64_t digest = 0;  // of the members above, static_digest and parameters known at the end
+  std::uint64_t digest = 0;  // of frames, contacts, chain, static_digest, end parameters
 
   using Numbers = std::array<std::uint64_t, 4>;
   Numbers numbers() const { return {frames, contacts, chain, digest}; }

@@ -59,10 +59,12 @@ class Recorder {
   Recorder(TrajectoryWriter& writer, double small_diameter, const State& state);
 
   void add(const StepReport& report) { state_.since_frame.add(report); }
-  /// Writes `frame`; the report of its step must have been added. Throws RunError if a number is
-  /// not finite; if grains may approach each other by more than half the smallest diameter even in
-  /// the smallest part of a step; or if the mean overlap since the last frame is above 1 % of d_S
-  /// and larger than the fastest approach in one step.
+  /// Writes `frame`; the report of its step must have been added. Throws RunError if
+  /// - a number is not finite;
+  /// - grains are so fast that the shortest part of a step lets them approach by more than half the
+  ///   smallest diameter;
+  /// - the mean overlap since the last frame exceeds both 1 % of d_S and the fastest approach in one
+  ///   step.
   template <int D>
   void write(const Frame<D>& frame, const Simulation<D>& simulation);
 

@@ -68,7 +68,8 @@ struct Geometry {
   void (*describe)(const Scene& scene, Parameters& parameters) = nullptr;
 };
 
-/// Values of Geometry::room_at and Geometry::bed_area of a scene, or their defaults.
+/// What Geometry::room_at and Geometry::bed_area return for a scene, or the default if its geometry
+/// has no such function.
 Room room_at(const Scene& scene, double y);
 double bed_area(const Scene& scene);
 

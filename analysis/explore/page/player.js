@@ -9,7 +9,7 @@ import {state} from "./state.js";
 const widths = 10; // number of classes of line width
 const thickest = 1.1; // width of the thickest line, in radii of a small grain
 
-/** Share of the larger grain in a mixed contact, from the two radii; NaN for the rule drop. */
+/** Share of the larger grain in a mixed contact, from the two radii; NaN for drop and for a rule that is not listed. */
 export function shareOfContact(rule, large, small) {
   switch (rule.kind) {
     case "uniform":
@@ -18,10 +18,11 @@ export function shareOfContact(rule, large, small) {
       return 0.5;
     case "power":
       return powerShare(large / small, rule.value);
-    case "drop":
-      return NaN;
-    default: // size; and contact-point, which equals size for grains that just touch
+    case "size":
+    case "contact-point": // equals size for grains that just touch
       return large / (large + small);
+    default:
+      return NaN;
   }
 }
 

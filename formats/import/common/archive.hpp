@@ -206,8 +206,9 @@ struct ArchiveFacts {
   /// True if every overlapping pair has a row, as for soft grains. Contact dynamics may list only
   /// the pairs that transmit a force.
   bool lists_all = true;
-  /// Largest residual of a grain's force balance in correct output of this program, relative to the
-  /// largest force, after subtraction of late damping; and its reason (digits of text, float32).
+  /// Largest residual of a grain's force balance that correct output of this program can have,
+  /// relative to the largest force, after subtraction of late damping; and its reason (digits of
+  /// text, float32).
   double tolerance = 0;
   std::string tolerance_reason;
 };

@@ -183,7 +183,7 @@ Hdf5Start start_of_hdf5(const std::string& path)
   return start;
 }
 
-/// Like other_kind(), for an HDF5 file with these names in its root.
+/// Says which other program's file this is, like other_kind(), from the names in an HDF5 root.
 std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
 {
   const auto has = [&](const char* name) {

@@ -230,8 +230,8 @@ std::vector<bool> ScannedArchive::resting_grains_of(const ImportSettings& settin
   return resting_grains(moment.grains, more ? &later.grains : nullptr);
 }
 
-/// One of the first 100 frames, with half of the roster's largest number of grains or more;
-/// otherwise the one with most grains. Includes the questions of the frames before it.
+/// The first of at most 100 frames that has half of the roster's most grains; if none has, the one
+/// with most grains. It carries the questions of the first frame that has any.
 ArchiveMoment ScannedArchive::full_moment(const ImportSettings& settings) const
 {
   constexpr int furthest = 100;

@@ -12,8 +12,8 @@
 
 namespace grseg {
 
-/// Settings with the roles of files that were named without an option, found from their content.
-/// For a known --format. Throws UsageError if a file's role cannot be recognised.
+/// Settings in which each file that was named without an option has a role (grains, contacts, ...),
+/// recognised by its content. --format must be known. Throws UsageError if a file's role cannot be recognised.
 ImportSettings with_known_files(const ImportSettings& settings);
 
 /// Settings completed from the content of the files: the format, and which files named without an

@@ -135,9 +135,9 @@ constexpr double same_motion = 1e-4;
 
 constexpr double errors = 3, part_of_median = 0.25;
 
-/// True if two grains move as one rigid body: equal angular velocities, and the relative velocity
-/// that these imply. If angular velocities are 0 and the grains are `joined`: true if they move
-/// relative to each other, but not along their branch.
+/// True if two grains move as one rigid body: they turn alike, and their relative velocity follows
+/// from this turning. Without turning, no velocity does; then `joined` grains count as one body if
+/// they do not approach or part along their branch.
 bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
 {
   const auto i = row(pair.i), j = row(pair.j);
