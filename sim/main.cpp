@@ -8,9 +8,22 @@
 #include "sim/solver/sweep.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 namespace grseg {
 namespace {
+
+/// Starts the program once more with glibc asked for large pages of memory, which cannot be done
+/// later. Contacts read their grains at random places; with small pages a step takes 5 % longer for
+/// discs and 8 % for spheres. Does nothing if the user has set tunables of glibc.
+void ask_for_large_pages(char** argv)
+{
+  if (std::getenv("GLIBC_TUNABLES") != nullptr) return;
+  setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 0);
+  execv("/proc/self/exe", argv);  // returns only if it fails
+}
 
 void add_run_options(po::options_description& options, RunOptions& run)
 {
@@ -83,6 +96,7 @@ void begin(const Scene& scene, const RunOptions& run)
 int main(int argc, char** argv)
 {
   using namespace grseg;
+  ask_for_large_pages(argv);
   const ToolInfo info{
       "grseg-sim",
       "contact dynamics of small and large rigid discs or spheres: chute, drum, plane shear, column, hopper.",

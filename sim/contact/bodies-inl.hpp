@@ -244,6 +244,65 @@ HWY_INLINE void store_fours(Tag d, const Fours<Tag>& members, float* to, const s
   store_row(rows[3], 3);
 }
 
+/// Exchanges the odd blocks of 128 bits of `first` and the even ones of `second`. It is its own
+/// inverse.
+template <class V>
+HWY_INLINE void exchange_blocks(V& first, V& second)
+{
+  const auto even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(second), first);
+  second = hn::OddEvenBlocks(second, hn::SwapAdjacentBlocks(first));
+  first = even;
+}
+
+/// Eight members of several structs in two vectors of four, one struct per lane. Loads whole structs
+/// if vectors are wide enough.
+template <class Tag>
+HWY_INLINE void load_eights(Tag d, const float* from, const std::uint32_t* at, Fours<Tag>& first,
+                            Fours<Tag>& second)
+{
+  if constexpr (hn::MaxLanes(d) == 4) {
+    first = load_fours(d, from, at);
+    second = load_fours(d, from + 4, at);
+  } else {
+    const hn::CappedTag<float, 8> eight;
+    const auto row = [&](int k) HWY_ATTR {
+      if constexpr (hn::MaxLanes(d) == 8)
+        return hn::Load(eight, from + at[k]);
+      else
+        return hn::Combine(d, hn::Load(eight, from + at[k + 8]), hn::Load(eight, from + at[k]));
+    };
+    first = transpose(d, row(0), row(1), row(2), row(3));
+    second = transpose(d, row(4), row(5), row(6), row(7));
+    for (std::size_t k = 0; k < 4; ++k) exchange_blocks(first[k], second[k]);
+  }
+}
+
+template <class Tag>
+HWY_INLINE void store_eights(Tag d, Fours<Tag> first, Fours<Tag> second, float* to,
+                             const std::uint32_t* at)
+{
+  if constexpr (hn::MaxLanes(d) == 4) {
+    store_fours(d, first, to, at);
+    store_fours(d, second, to + 4, at);
+  } else {
+    for (std::size_t k = 0; k < 4; ++k) exchange_blocks(first[k], second[k]);
+    const hn::CappedTag<float, 8> eight;
+    const auto store = [&](const Fours<Tag>& members, const std::uint32_t* place) HWY_ATTR {
+      const auto rows = transpose(d, members[0], members[1], members[2], members[3]);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if constexpr (hn::MaxLanes(d) == 8) {
+          hn::Store(rows[k], eight, to + place[k]);
+        } else {
+          hn::Store(hn::LowerHalf(eight, rows[k]), eight, to + place[k]);
+          hn::Store(hn::UpperHalf(eight, rows[k]), eight, to + place[k + 8]);
+        }
+      }
+    };
+    store(first, at);
+    store(second, at + 4);
+  }
+}
+
 #endif  // HWY_TARGET == HWY_SCALAR
 
 /// Members of several MotionOf, one body per lane; with floats the inverse mass is 0.
@@ -254,19 +313,36 @@ struct Bodies {
   Turning<D, V> rim;
 };
 
+template <class Tag, class Real>
+HWY_INLINE void load_eights(Tag d, const Real* from, const std::uint32_t* at, Fours<Tag>& first,
+                            Fours<Tag>& second)
+{
+  first = load_fours(d, from, at);
+  second = load_fours(d, from + 4, at);
+}
+template <class Tag, class Real>
+HWY_INLINE void store_eights(Tag d, const Fours<Tag>& first, const Fours<Tag>& second, Real* to,
+                             const std::uint32_t* at)
+{
+  store_fours(d, first, to, at);
+  store_fours(d, second, to + 4, at);
+}
+
 /// `at`: offsets of the bodies, in numbers.
 template <int D, class Tag, class Real>
 HWY_INLINE Bodies<D, hn::Vec<Tag>> load_bodies(Tag d, const Real* motion, const std::uint32_t* at)
 {
-  auto first = load_fours(d, motion, at);
+  Fours<Tag> first, second;
+  if constexpr (D == 2)
+    first = load_fours(d, motion, at);
+  else
+    load_eights(d, motion, at, first, second);
   // A constant, so that no register is needed.
   if constexpr (std::is_same_v<Real, float>) first[D] = hn::Zero(d);
-  if constexpr (D == 2) {
+  if constexpr (D == 2)
     return {{first[0], first[1]}, first[2], {first[3]}};
-  } else {
-    const auto second = load_fours(d, motion + 4, at);
+  else
     return {{first[0], first[1], first[2]}, first[3], {second[0], second[1], second[2]}};
-  }
 }
 
 template <int D, class Tag, class Real>
@@ -276,8 +352,8 @@ HWY_INLINE void store_bodies(Tag d, const Bodies<D, hn::Vec<Tag>>& b, Real* moti
   if constexpr (D == 2) {
     store_fours(d, Fours<Tag>{b.v[0], b.v[1], b.inverse_mass, b.rim[0]}, motion, at);
   } else {
-    store_fours(d, Fours<Tag>{b.v[0], b.v[1], b.v[2], b.inverse_mass}, motion, at);
-    store_fours(d, Fours<Tag>{b.rim[0], b.rim[1], b.rim[2], hn::Zero(d)}, motion + 4, at);
+    store_eights(d, Fours<Tag>{b.v[0], b.v[1], b.v[2], b.inverse_mass},
+                 Fours<Tag>{b.rim[0], b.rim[1], b.rim[2], hn::Zero(d)}, motion, at);
   }
 }
 

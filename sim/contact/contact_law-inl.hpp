@@ -305,7 +305,7 @@ HWY_INLINE Turning<D, V> within_cone(const Increments<D, V>& c, const Turning<D,
     const auto whole = c.base_t + wanted;
     const V limit = held + more, squared = dot(whole, whole);
     const auto slips = squared > limit * limit;
-    const auto kept = (limit / root(choose(slips, squared, number<V>(1)))) * whole - c.base_t;
+    const auto kept = inverse_root(squared) * (limit * whole) - c.base_t;
     return components<3>([&](std::size_t k) HWY_ATTR { return choose(slips, kept[k], wanted[k]); });
   }
 }

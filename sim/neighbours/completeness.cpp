@@ -56,6 +56,7 @@ void Completeness<D>::begin(const CellGrid<D>& grid, const GrainState<D>& grains
 {
   column_width_ = grid.column_width();
   slice_width_ = grid.slice_width();
+  neighbours_moved_ = 0;
   make_groups(grid);
   for_each_part(threads_, walls_.empty() ? 0 : groups_.size(),
                 [&](std::size_t group) { find_unlisted(group, grains, made_at); });

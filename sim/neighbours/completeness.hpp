@@ -34,6 +34,12 @@ class Completeness {
   /// `farthest`, m, relative to each other.
   bool holds(const std::vector<Position<D>>& made_at, const std::vector<Position<D>>& position,
              double farthest);
+  /// True if, at the positions of the last begin() or holds(), pairs of neighbouring groups that had
+  /// a gap above `distance`, m, when the list was made cannot touch.
+  bool keeps_apart_beyond(double distance) const
+  {
+    return neighbours_moved_ + (skin_ - slack_) <= distance;
+  }
   /// Upper bound of the relative velocity, m/s, of grains that may have met since the list was made
   /// although their pair is not listed, or that have moved farther than allowed, if bodies moved
   /// with `motion`. 0 if the last holds() was true.

@@ -26,7 +26,7 @@ template <int D>
 struct DetectionLoops {
   void (*find)(const Pairs<D>&, std::size_t strip, const DetectionRule<D>&, StripContacts<D>&,
                DetectionSums&);
-  void (*keep)(const StripContacts<D>&, PairMemory<D>*, ImpulseSums<D>&);
+  void (*keep)(const StripContacts<D>&, Pairs<D>&, ImpulseSums<D>&);
 };
 }  // namespace
 }  // namespace grseg
@@ -90,7 +90,9 @@ HWY_INLINE std::size_t find_near_pairs(const Pairs<D>& pairs, const PairClass& c
   const Doubles d;
   const auto margin = hn::Set(d, rule.margin);
   std::size_t count = 0;
-  for (std::size_t k = c.begin; k < c.end; k += block_lanes) {
+  const auto end = rule.only_near ? c.near_end : c.end;
+  std::fill_n(acting + (end - c.begin) / block_lanes, (c.end - end) / block_lanes, std::uint8_t{0});
+  for (std::size_t k = c.begin; k < end; k += block_lanes) {
     std::uint32_t bits = 0;
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const std::size_t at = k + lane;
@@ -166,8 +168,7 @@ HWY_INLINE void set_places(const NearPairs& near, std::size_t first, ContactBloc
     hn::Store(hn::Add(i, i), d, &block.i[lane]);
     hn::Store(hn::Add(j, j), d, &block.j[lane]);
     const auto pair = hn::LoadU(d, &near.pair[first + lane]);
-    const auto twice = hn::Add(pair, pair);
-    hn::Store(D == 2 ? twice : hn::Add(twice, twice), d, &origin.pair[lane]);
+    hn::Store(hn::Add(pair, pair), d, &origin.pair[lane]);
   }
 }
 
@@ -228,25 +229,31 @@ struct Memories {
   Turning<D, Vector> t;
   Vector approach;
 };
+/// `at`: offsets in Pairs::memory, in doubles.
 template <int D>
-HWY_INLINE Memories<D> load_memories(const double* memory, const std::uint32_t* at)
-{
-  const auto first = load_fours(Doubles(), memory, at);
-  if constexpr (D == 2)
-    return {first[0], {first[1]}, first[2]};
-  else
-    return {first[0], {first[1], first[2], first[3]}, load_fours(Doubles(), memory + 4, at)[0]};
-}
-template <int D>
-HWY_INLINE void store_memories(const Memories<D>& m, double* memory, const std::uint32_t* at)
+HWY_INLINE Memories<D> load_memories(const Pairs<D>& pairs, const std::uint32_t* at)
 {
   const Doubles d;
-  const auto zero = hn::Zero(d);
+  const auto m = load_fours(d, &pairs.memory.data()->n, at);
+  if constexpr (D == 2) return {m[0], {m[1]}, m[2]};
+  alignas(64) Lanes approach;
+  for (std::size_t lane = 0; lane < hn::MaxLanes(d); ++lane)
+    approach[lane] = pairs.approach[at[lane] / memory_doubles];
+  if constexpr (D == 3) return {m[0], {m[1], m[2], m[3]}, load(approach, 0)};
+}
+template <int D>
+HWY_INLINE void store_memories(const Memories<D>& m, Pairs<D>& pairs, const std::uint32_t* at)
+{
+  const Doubles d;
+  auto* memory = reinterpret_cast<double*>(pairs.memory.data());
   if constexpr (D == 2) {
-    store_fours(d, Fours<Doubles>{m.n, m.t[0], m.approach, zero}, memory, at);
+    store_fours(d, Fours<Doubles>{m.n, m.t[0], m.approach, hn::Zero(d)}, memory, at);
   } else {
     store_fours(d, Fours<Doubles>{m.n, m.t[0], m.t[1], m.t[2]}, memory, at);
-    store_fours(d, Fours<Doubles>{m.approach, zero, zero, zero}, memory + 4, at);
+    alignas(64) Lanes approach;
+    store(m.approach, approach, 0);
+    for (std::size_t lane = 0; lane < hn::MaxLanes(d); ++lane)
+      pairs.approach[at[lane] / memory_doubles] = approach[lane];
   }
 }
 
@@ -259,7 +266,6 @@ HWY_INLINE void set_block(const Pairs<D>& pairs, const PairClass& c, const NearP
 {
   const Doubles d;
   const auto* motion = reinterpret_cast<const double*>(rule.motion.data());
-  const double* memory = &pairs.memory.data()->n;
   set_places(near, first, block, origin);
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
     const auto v = load_relative<D>(d, motion, &block.i[lane], &block.j[lane]);
@@ -273,7 +279,7 @@ HWY_INLINE void set_block(const Pairs<D>& pairs, const PairClass& c, const NearP
           lane);
 
     const auto separation = dot(v.v, g.n);
-    const auto remembered_of = load_memories<D>(memory, &origin.pair[lane]);
+    const auto remembered_of = load_memories<D>(pairs, &origin.pair[lane]);
     const auto n = remembered_of.n;
     const auto remembered = with.horizon ? remembered_of.approach : hn::Zero(d);
     const auto rebound = rebound_of<with.restitution, with.horizon>(
@@ -358,10 +364,9 @@ void find_for(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& 
 }
 
 template <int D>
-void keep(const StripContacts<D>& contacts, PairMemory<D>* memories, ImpulseSums<D>& total)
+void keep(const StripContacts<D>& contacts, Pairs<D>& pairs, ImpulseSums<D>& total)
 {
   const Doubles d;
-  auto* memory = reinterpret_cast<double*>(memories);
   alignas(64) Lanes gaps{};
   alignas(64) Along<D, Lanes> on_base{};
   for (std::size_t b = 0; b < contacts.size; ++b) {
@@ -374,7 +379,7 @@ void keep(const StripContacts<D>& contacts, PairMemory<D>* memories, ImpulseSums
       const auto t = load(block.impulse_t, lane);
       const auto bearing = n > hn::Zero(d);
       const auto approach = choose(bearing, load(origin.approach, lane));
-      store_memories<D>({n, t, approach}, memory, &origin.pair[lane]);
+      store_memories<D>({n, t, approach}, pairs, &origin.pair[lane]);
       add(gaps, choose(bearing, magnitude(load(origin.gap, lane))));
       total.force_bearing += hn::CountTrue(d, bearing);
       if (b < contacts.on_base) continue;
@@ -473,12 +478,12 @@ void forget_search(std::vector<StripContacts<D>>& contacts)
 }
 
 template <int D>
-ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts,
-                             std::span<PairMemory<D>> memories, int threads)
+ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs,
+                             int threads)
 {
   std::vector<ImpulseSums<D>> sums(contacts.size());
   for_each_part(threads, contacts.size(),
-                [&](std::size_t s) { loops<D>().keep(contacts[s], memories.data(), sums[s]); });
+                [&](std::size_t s) { loops<D>().keep(contacts[s], pairs, sums[s]); });
   ImpulseSums<D> total;
   for (const auto& s : sums) {
     total.force_bearing += s.force_bearing;
@@ -489,8 +494,7 @@ ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts,
 }
 
 template <int D>
-void forget_impulses(const Pairs<D>& pairs, std::span<const StripContacts<D>> contacts,
-                     std::span<PairMemory<D>> memories, int threads)
+void forget_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs, int threads)
 {
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     const auto& strip = contacts[s];
@@ -500,7 +504,7 @@ void forget_impulses(const Pairs<D>& pairs, std::span<const StripContacts<D>> co
       for (; gone != 0; gone &= gone - 1) {
         const auto pair =
             first + eight * block_lanes + static_cast<unsigned>(std::countr_zero(gone));
-        memories[pair] = {};
+        pairs.clear_memories(pair, pair + 1);
       }
     }
   });
@@ -509,17 +513,13 @@ void forget_impulses(const Pairs<D>& pairs, std::span<const StripContacts<D>> co
 template DetectionSums find_contacts(const Pairs<2>&, const DetectionRule<2>&,
                                      std::vector<StripContacts<2>>&, int);
 template void forget_search(std::vector<StripContacts<2>>&);
-template ImpulseSums<2> keep_impulses(std::span<const StripContacts<2>>, std::span<PairMemory<2>>,
-                                      int);
-template void forget_impulses(const Pairs<2>&, std::span<const StripContacts<2>>,
-                              std::span<PairMemory<2>>, int);
+template ImpulseSums<2> keep_impulses(std::span<const StripContacts<2>>, Pairs<2>&, int);
+template void forget_impulses(std::span<const StripContacts<2>>, Pairs<2>&, int);
 template DetectionSums find_contacts(const Pairs<3>&, const DetectionRule<3>&,
                                      std::vector<StripContacts<3>>&, int);
 template void forget_search(std::vector<StripContacts<3>>&);
-template ImpulseSums<3> keep_impulses(std::span<const StripContacts<3>>, std::span<PairMemory<3>>,
-                                      int);
-template void forget_impulses(const Pairs<3>&, std::span<const StripContacts<3>>,
-                              std::span<PairMemory<3>>, int);
+template ImpulseSums<3> keep_impulses(std::span<const StripContacts<3>>, Pairs<3>&, int);
+template void forget_impulses(std::span<const StripContacts<3>>, Pairs<3>&, int);
 
 }  // namespace grseg
 #endif  // HWY_ONCE

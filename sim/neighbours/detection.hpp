@@ -20,7 +20,6 @@ struct alignas(64) BlockOrigin {
   /// Offset of the memory in Pairs::memory, in doubles; of the neutral pair in unused lanes.
   std::array<std::uint32_t, block_lanes> pair;
 
-  static constexpr std::uint32_t memory_doubles = sizeof(PairMemory<D>) / sizeof(double);
   std::size_t entry(std::size_t lane) const { return pair[lane] / memory_doubles; }  // in Pairs
 };
 
@@ -61,6 +60,7 @@ struct DetectionRule {
   /// coefficient: restitution 0, rim_factor 0, shifts 0.
   Effects effects;
   bool periodic = true;
+  bool only_near = false;  // see PairList::only_near()
 };
 
 /// Sums and maxima over the contacts that were found.
@@ -94,12 +94,11 @@ struct ImpulseSums {
 
 /// Stores the impulses and approaches of the contacts in the memories of their pairs.
 template <int D>
-ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts,
-                             std::span<PairMemory<D>> memories, int threads = 1);
+ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs,
+                             int threads = 1);
 /// Clears the memories of pairs that acted in the previous step and do not act now. The pair list
 /// must be the same in both steps.
 template <int D>
-void forget_impulses(const Pairs<D>& pairs, std::span<const StripContacts<D>> contacts,
-                     std::span<PairMemory<D>> memories, int threads = 1);
+void forget_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs, int threads = 1);
 
 }  // namespace grseg

@@ -53,7 +53,9 @@ Position<D> displacement(double duration, const Motion<D>& motion)
   if constexpr (D == 2)
     return duration * Vec2(motion.v[0], motion.v[1]);
   else
-    return duration * Eigen::Vector4d(motion.v[0], motion.v[1], motion.v[2], 0);
+    // Loads all four numbers at once; the last product is 0.
+    return Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>(motion.v.data())
+        .cwiseProduct(Eigen::Vector4d(duration, duration, duration, 0));
 }
 
 /// Numbers of periods to add to the periodic coordinates: to x, and in three dimensions to z.

@@ -60,6 +60,7 @@ void PairColours::colour(const FoundPairs& found, const CellGrid<D>& grid,
   taken.resize(grains.size());
   class_of.resize(found.size());
   sizes.resize(grid.strips());
+  near_sizes.resize(grid.strips());
   for_alternate_strips(threads, sizes.size(), [&](std::size_t s) {
     const auto bodies = grid.bodies_of_strip(s);
     for (auto a = bodies.begin; a < bodies.end; ++a) taken[a] = {};
@@ -67,12 +68,16 @@ void PairColours::colour(const FoundPairs& found, const CellGrid<D>& grid,
       for (auto f = found.begin[bodies.begin]; f < found.begin[bodies.end]; ++f)
         taken[found.b[f]] = {};
     sizes[s].fill(0);
-    for (auto a = bodies.begin; a < bodies.end; ++a) {
-      for (auto f = found.begin[a]; f < found.begin[a + 1]; ++f) {
+    const auto colour_them = [&](std::uint32_t a, std::uint32_t first, std::uint32_t end) {
+      for (auto f = first; f < end; ++f) {
         class_of[f] = class_for(a, found.b[f], grains, taken);
         if (class_of[f] != no_class) ++sizes[s][class_of[f]];
       }
-    }
+    };
+    for (auto a = bodies.begin; a < bodies.end; ++a) colour_them(a, found.begin[a], found.far[a]);
+    near_sizes[s] = sizes[s];
+    for (auto a = bodies.begin; a < bodies.end; ++a)
+      colour_them(a, found.far[a], found.begin[a + 1]);
   });
 }
 
@@ -120,10 +125,10 @@ auto PairList<D>::state() const -> State
   state.renewals = renewals_;
   state.i = pairs_.i;
   state.j = pairs_.j;
-  for (const auto& memory : pairs_.memory) {
-    state.impulse_n.push_back(memory.n);
-    state.impulse_t.push_back(memory.t);
-    state.approach.push_back(memory.approach);
+  for (std::size_t k = 0; k < pairs_.memory.size(); ++k) {
+    state.impulse_n.push_back(pairs_.memory[k].n);
+    state.impulse_t.push_back(pairs_.memory[k].t);
+    state.approach.push_back(pairs_.approach_of(k));
   }
   return state;
 }
@@ -138,7 +143,7 @@ void PairList<D>::restore(GrainState<D>& grains, const State& state)
         "this grseg-sim finds other pairs than the one that wrote the checkpoint; continue with "
         "the program that wrote it");
   for (std::size_t k = 0; k < pairs_.memory.size(); ++k)
-    pairs_.memory[k] = {state.impulse_n[k], state.impulse_t[k], state.approach[k]};
+    pairs_.set_memory(k, state.impulse_n[k], state.impulse_t[k], state.approach[k]);
   renewals_ = state.renewals;
 }
 
@@ -148,9 +153,11 @@ void PairList<D>::lay_out()
   pairs_.classes.clear();
   pairs_.strips.assign(1, 0);
   std::uint32_t begin = 0;
-  const auto add_class = [&](std::size_t size, std::int32_t wall, bool alone, bool base) {
+  const auto add_class = [&](std::size_t size, std::size_t near, std::int32_t wall, bool alone,
+                             bool base) {
     if (size == 0) return;
-    pairs_.classes.push_back({begin, begin + whole_blocks(size), wall, alone, base});
+    pairs_.classes.push_back(
+        {begin, begin + whole_blocks(size), begin + whole_blocks(near), wall, alone, base});
     begin = pairs_.classes.back().end;
   };
   constexpr std::size_t palette = PairColours::palette;
@@ -159,10 +166,13 @@ void PairList<D>::lay_out()
     strip.begin = begin;
     for (std::size_t c = 0; c < PairColours::all_classes; ++c) {
       strip.next[c] = begin;
-      add_class(colours_.sizes[s][c], -1, c % palette == palette - 1, c >= PairColours::on_base);
+      add_class(colours_.sizes[s][c], colours_.near_sizes[s][c], -1, c % palette == palette - 1,
+                c >= PairColours::on_base);
     }
-    for (std::size_t w = 0; w < walls_; ++w)
-      add_class(search_.strips[s].at_wall[w].size(), static_cast<std::int32_t>(w), false, true);
+    for (std::size_t w = 0; w < walls_; ++w) {
+      const auto size = search_.strips[s].at_wall[w].size();
+      add_class(size, size, static_cast<std::int32_t>(w), false, true);
+    }
     strip.end = begin;
     pairs_.strips.push_back(static_cast<std::uint32_t>(pairs_.classes.size()));
   }
@@ -170,6 +180,7 @@ void PairList<D>::lay_out()
   pairs_.j.resize(begin + 1);
   pairs_.geometry.resize(begin + 1);
   pairs_.memory.resize(begin + 1);
+  if constexpr (D == 3) pairs_.approach.resize(begin + 1);
 }
 
 template <int D>
@@ -205,9 +216,9 @@ void PairList<D>::fill_in(std::size_t strip, const GrainState<D>& grains)
   const auto bodies = search_.grid.bodies_of_strip(strip);
   const auto& found = search_.found;
   const auto& made_at = search_.made_at;
-  for (auto a = bodies.begin; a < bodies.end; ++a) {
+  const auto write_pairs = [&](std::uint32_t a, std::uint32_t begin, std::uint32_t end) {
     const bool first = grains.motion[a].inverse_mass > 0;
-    for (auto f = found.begin[a]; f < found.begin[a + 1]; ++f) {
+    for (auto f = begin; f < end; ++f) {
       const auto c = colours_.class_of[f];
       if (c == PairColours::no_class) continue;
       const auto b = found.b[f];
@@ -216,23 +227,24 @@ void PairList<D>::fill_in(std::size_t strip, const GrainState<D>& grains)
       write(k, offset(first ? a : b), offset(first ? b : a),
             geometry_of<D>(shift, grains.radius[a] + grains.radius[b]));
     }
-  }
+  };
+  for (auto a = bodies.begin; a < bodies.end; ++a) write_pairs(a, found.begin[a], found.far[a]);
+  for (auto a = bodies.begin; a < bodies.end; ++a) write_pairs(a, found.far[a], found.begin[a + 1]);
   for (const auto& c : pairs_.classes_of(strip)) {
     if (c.wall < 0) continue;
     auto k = c.begin;
     for (const auto b : search_.strips[strip].at_wall[static_cast<std::size_t>(c.wall)])
       write(k++, offset(b), nobody, geometry_of<D>({}, grains.radius[b]));
   }
-  std::fill(pairs_.memory.begin() + s.begin, pairs_.memory.begin() + s.end, PairMemory<D>{});
-  if (strip + 1 < strips_.size()) return;
-  write(s.end, nobody, nobody, geometry_of<D>({}, 1));
-  pairs_.memory[s.end] = {};
+  const bool last = strip + 1 == strips_.size();
+  pairs_.clear_memories(s.begin, last ? s.end + 1 : s.end);
+  if (last) write(s.end, nobody, nobody, geometry_of<D>({}, 1));
 }
 
 template <int D>
 void PairList<D>::forget()
 {
-  pairs_.memory.assign(pairs_.i.size(), {});
+  pairs_.clear_memories(0, pairs_.i.size());
 }
 
 template <int D>
@@ -244,7 +256,8 @@ void PairList<D>::carry_wall_memory(std::uint32_t body, std::int32_t wall, std::
     const auto found = std::lower_bound(first, last, position_doubles<D> * body);
     if (found == last || *found != position_doubles<D> * body) continue;
     const auto to = static_cast<std::size_t>(found - pairs_.i.begin());
-    pairs_.memory[to] = old_pairs_.memory[from];
+    const auto& memory = old_pairs_.memory[from];
+    pairs_.set_memory(to, memory.n, memory.t, old_pairs_.approach_of(from));
   }
 }
 
@@ -253,8 +266,7 @@ void PairList<D>::carry_memories()
 {
   const auto& old = old_pairs_;
   if (old.classes.empty() || pairs_.classes.empty()) return;
-  const CarryOver task{old.i.data(),   old.j.data(),     search_.place.data(), &search_.found,
-                       number_.data(), &old.memory[0].n, &pairs_.memory[0].n};
+  const CarryOver<D> task{old, search_.place.data(), search_.found, number_.data(), pairs_};
   for_each_part(threads_, old.classes.size(), [&](std::size_t n) {
     if (old.classes[n].wall < 0) carry_over<D>(task, old.classes[n].begin, old.classes[n].end);
   });

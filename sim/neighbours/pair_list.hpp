@@ -34,9 +34,10 @@ struct PairColours {
     std::uint64_t among_grains = 0, on_base = 0;  // one bit per colour
   };
 
-  std::vector<Taken> taken;                                   // per body, colours of its pairs
-  std::vector<std::uint8_t> class_of;                         // per found pair, its class
-  std::vector<std::array<std::uint32_t, all_classes>> sizes;  // per strip and class, pair count
+  std::vector<Taken> taken;            // per body, colours of its pairs
+  std::vector<std::uint8_t> class_of;  // per found pair, its class
+  // Per strip and class: number of pairs, and of near pairs (FoundPairs), which are coloured first.
+  std::vector<std::array<std::uint32_t, all_classes>> sizes, near_sizes;
 };
 
 /// List of pairs that may touch. PairSearch finds the pairs, PairColours sorts them into classes
@@ -60,11 +61,13 @@ class PairList {
   void renew(GrainState<D>& grains, const std::vector<Position<D>>& position);
 
   const Pairs<D>& pairs() const { return pairs_; }
-  std::span<PairMemory<D>> memories() { return pairs_.memory; }
+  Pairs<D>& pairs() { return pairs_; }
   /// Clears all memories, as if no pair had ever touched.
   void forget();
   std::size_t renewals() const { return renewals_; }
   Range bodies_of_strip(std::size_t strip) const { return search_.grid.bodies_of_strip(strip); }
+  /// True if only near pairs can touch, by the motion that complete() has found.
+  bool only_near() const { return completeness_.keeps_apart_beyond(near_part<D> * skin_); }
   /// See Completeness::fastest_unlisted().
   double fastest_unlisted(const std::vector<Motion<D>>& motion) const
   {

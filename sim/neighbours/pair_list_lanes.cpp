@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/neighbours/pair_list_lanes.hpp"
 
-#include "sim/neighbours/pairs.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -26,7 +24,7 @@ struct PairLoops {
   void (*measure)(std::span<const Position<D>> from, std::span<const Position<D>> to,
                   std::span<const Range>, Extent<D>*);
   void (*find_near)(const Members<D>&, const Search<D>&, double skin, FoundPairs&);
-  void (*carry_over)(const CarryOver&, std::uint32_t first, std::uint32_t last);
+  void (*carry_over)(const CarryOver<D>&, std::uint32_t first, std::uint32_t last);
 };
 }  // namespace
 }  // namespace grseg
@@ -93,13 +91,25 @@ void measure(std::span<const Position<D>> from, std::span<const Position<D>> to,
   leave_vectors();
 }
 
+/// Partners of a body: an array with room for eight more than there are, and their number.
+struct Partners {
+  std::uint32_t* body;
+  std::size_t count;
+
+  /// Adds first + bit for each set bit.
+  HWY_INLINE void add(std::uint32_t bits, std::size_t first)
+  {
+    store_set_bits<1>(bits, first, body + count);
+    count += hwy::PopCount(std::uint64_t{bits});
+  }
+};
+
 /// Finds the partners of body `a` in a range of bodies, to whose x and z `part.shift` is added.
-/// Writes them to `found` after the `count` partners found so far, and adds to `count`.
+/// Appends them to `near` or, if their gap is above near_part of the skin, to `far`.
 template <bool periodic, int D>
 HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
                           const typename Search<D>::Part& part, double skin,
-                          const Along<D - 1, double>& period, std::uint32_t* found,
-                          std::size_t& count)
+                          const Along<D - 1, double>& period, Partners& near, Partners& far)
 {
   const Doubles d;
   constexpr auto periodic_axis = [](std::size_t axis) { return axis / 2; };  // x or z
@@ -107,8 +117,9 @@ HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
     return hn::Set(d, k == 1 ? members.x[k][a] : members.x[k][a] - part.shift[periodic_axis(k)]);
   });
   const auto reach = hn::Set(d, members.radius[a] + skin);
+  const auto beyond = hn::Set(d, (1 - near_part<D>)*skin);
   for (std::size_t b = part.bodies.begin; b < part.bodies.end; b += block_lanes) {
-    std::uint32_t bits = 0;
+    std::uint32_t bits = 0, near_bits = 0;
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const std::size_t at = b + lane;
       const auto apart = components<D>([&](std::size_t k) HWY_ATTR {
@@ -119,13 +130,21 @@ HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
             hn::Round(hn::Mul(difference, hn::Set(d, length > 0 ? 1 / length : 0)));
         return hn::Sub(difference, hn::Mul(hn::Set(d, length), periods));
       });
-      const auto near = hn::Add(reach, hn::LoadU(d, &members.radius[at]));
-      bits |= bits_of(d, hn::Le(dot(apart, apart), hn::Mul(near, near))) << lane;
+      const auto squared = dot(apart, apart);
+      const auto within = [&](Vector distance) HWY_ATTR {
+        return bits_of(d, squared <= distance * distance) << lane;
+      };
+      const auto farthest = hn::Add(reach, hn::LoadU(d, &members.radius[at]));
+      bits |= within(farthest);
+      if constexpr (near_part<D> < 1) near_bits |= within(farthest - beyond);
     }
     const std::size_t left = part.bodies.end - b;
     if (left < block_lanes) bits &= (1U << left) - 1;
-    store_set_bits<1>(bits, b, found + count);
-    count += hwy::PopCount(std::uint64_t{bits});
+    if constexpr (near_part<D> < 1) {
+      far.add(bits & ~near_bits, b);
+      bits &= near_bits;
+    }
+    near.add(bits, b);
   }
 }
 
@@ -133,13 +152,16 @@ template <bool periodic, int D>
 HWY_INLINE void find_near_of(const Members<D>& members, const Search<D>& s, double skin,
                              FoundPairs& found)
 {
-  auto* b = found.b.data();
-  std::size_t count = found.begin.back();
+  Partners near{found.b.data(), found.begin.back()};
   for (auto a = s.cell.begin; a < s.cell.end; ++a) {
-    find_with<periodic, D>(members, a, {{a + 1, s.end}, {}}, skin, s.period, b, count);
+    Partners far{found.scratch.data(), 0};
+    find_with<periodic, D>(members, a, {{a + 1, s.end}, {}}, skin, s.period, near, far);
     for (std::size_t p = 0; p < s.count; ++p)
-      find_with<periodic, D>(members, a, s.parts[p], skin, s.period, b, count);
-    found.begin.push_back(static_cast<std::uint32_t>(count));
+      find_with<periodic, D>(members, a, s.parts[p], skin, s.period, near, far);
+    found.far.push_back(static_cast<std::uint32_t>(near.count));
+    std::copy_n(far.body, far.count, near.body + near.count);
+    near.count += far.count;
+    found.begin.push_back(static_cast<std::uint32_t>(near.count));
   }
   leave_vectors();
 }
@@ -154,9 +176,6 @@ void find_near_for(const Members<D>& members, const Search<D>& search, double sk
     find_near_of<false, D>(members, search, skin, found);
 }
 
-template <int D>
-constexpr std::uint32_t memory_doubles = sizeof(PairMemory<D>) / sizeof(double);
-
 /// One bit for each of eight memories: 1 if it has an impulse.
 template <int D>
 HWY_INLINE std::uint32_t bearing(const double* memory)
@@ -164,7 +183,7 @@ HWY_INLINE std::uint32_t bearing(const double* memory)
   const Doubles d;
   static constexpr auto rows = [] {
     std::array<std::uint32_t, block_lanes> offsets{};
-    for (std::uint32_t k = 0; k < block_lanes; ++k) offsets[k] = memory_doubles<D> * k;
+    for (std::uint32_t k = 0; k < block_lanes; ++k) offsets[k] = memory_doubles * k;
     return offsets;
   }();
   std::uint32_t bits = 0;
@@ -193,20 +212,19 @@ HWY_INLINE std::size_t find_pair(const FoundPairs& found, std::uint32_t a, std::
 }
 
 template <int D>
-void carry_all(const CarryOver& task, std::uint32_t first, std::uint32_t last)
+void carry_all(const CarryOver<D>& task, std::uint32_t first, std::uint32_t last)
 {
-  constexpr std::size_t size = memory_doubles<D>;
-  const auto& found = *task.found;
+  const auto& [old, place, found, number, pairs] = task;
   for (std::size_t eight = first; eight < last; eight += block_lanes) {
-    for (auto bits = bearing<D>(task.memory + size * eight); bits != 0; bits &= bits - 1) {
+    for (auto bits = bearing<D>(&old.memory[eight].n); bits != 0; bits &= bits - 1) {
       const std::size_t k = eight + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
-      const auto i = task.place[task.i[k] / position_doubles<D>],
-                 j = task.place[task.j[k] / position_doubles<D>];
+      const auto i = place[old.i[k] / position_doubles<D>],
+                 j = place[old.j[k] / position_doubles<D>];
       auto f = find_pair(found, std::min(i, j), std::max(i, j));
       if (f == found.size()) f = find_pair(found, std::max(i, j), std::min(i, j));
       if (f == found.size()) continue;
-      std::copy_n(task.memory + size * k, size,
-                  task.to_memory + size * std::size_t{task.number[f]});
+      pairs.memory[number[f]] = old.memory[k];
+      if constexpr (D == 3) pairs.approach[number[f]] = old.approach[k];
     }
   }
   leave_vectors();
@@ -261,11 +279,13 @@ void find_near(const Members<D>& members, const Search<D>& search, double skin, 
   for (std::size_t p = 0; p < search.count; ++p) partners += size(search.parts[p].bodies);
   const std::size_t room = found.begin.back() + size(search.cell) * partners + block_lanes;
   if (found.b.size() < room) found.b.resize(2 * room);
+  if (found.scratch.size() < partners + block_lanes)
+    found.scratch.resize(2 * partners + block_lanes);
   loops<D>().find_near(members, search, skin, found);
 }
 
 template <int D>
-void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last)
+void carry_over(const CarryOver<D>& task, std::uint32_t first, std::uint32_t last)
 {
   loops<D>().carry_over(task, first, last);
 }
@@ -276,8 +296,8 @@ template void measure_displacements<3>(std::span<const Position<3>>, std::span<c
                                        std::span<const Range>, std::span<Extent<3>>);
 template void find_near(const Members<2>&, const Search<2>&, double, FoundPairs&);
 template void find_near(const Members<3>&, const Search<3>&, double, FoundPairs&);
-template void carry_over<2>(const CarryOver&, std::uint32_t, std::uint32_t);
-template void carry_over<3>(const CarryOver&, std::uint32_t, std::uint32_t);
+template void carry_over(const CarryOver<2>&, std::uint32_t, std::uint32_t);
+template void carry_over(const CarryOver<3>&, std::uint32_t, std::uint32_t);
 
 }  // namespace grseg
 #endif  // HWY_ONCE

@@ -4,6 +4,7 @@
 #include "formats/core/frame.hpp"
 #include "sim/contact/contact_blocks.hpp"
 #include "sim/neighbours/grain_state.hpp"
+#include "sim/neighbours/pairs.hpp"
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -48,11 +49,19 @@ struct Search {
 };
 
 /// Pairs in the order of their first body a: pairs begin[a] .. begin[a+1]-1, with second bodies b.
+/// Pairs of spheres from far[a] on have a gap above near_part of the skin; those of discs are not
+/// told apart.
 struct FoundPairs {
-  std::vector<std::uint32_t> begin, b;
+  std::vector<std::uint32_t> begin, far, b;
+  std::vector<std::uint32_t> scratch;  // of find_near()
 
   std::size_t size() const { return begin.empty() ? 0 : begin.back(); }
 };
+
+/// The part of the skin up to which pairs are near. Until grains have moved so far, the others cannot
+/// touch, and are not tested. Between 0.4 and 0.6 the time of a step is the same within 1 %.
+template <int D>
+constexpr double near_part = D == 2 ? 1 : 0.5;
 
 /// Appends to `found` the pairs whose gap is at most `skin`, m. The last entry of `found.begin`
 /// must belong to the first body of the cell; `found.b` may have more entries than there are pairs.
@@ -60,18 +69,18 @@ template <int D>
 void find_near(const Members<D>& members, const Search<D>& search, double skin, FoundPairs& found);
 
 /// Memories of the pairs in an old list, and data that locate the same pairs in the new list.
+template <int D>
 struct CarryOver {
-  const std::uint32_t *i, *j;   // per old pair, as in Pairs, of bodies before the sort
+  const Pairs<D>& old;          // with indices of bodies before the sort
   const std::uint32_t* place;   // per old index of a body, its new index
-  const FoundPairs* found;      // pairs of the new list
+  const FoundPairs& found;      // pairs of the new list
   const std::uint32_t* number;  // per pair in `found`, its entry in the new list
-  const double* memory;         // PairMemory of the old pairs
-  double* to_memory;            // PairMemory of the new pairs
+  Pairs<D>& pairs;              // new list
 };
 
 /// Copies the memories of old pairs first .. last-1 that have an impulse and are in the new list;
 /// `first` and `last` are multiples of 8.
 template <int D>
-void carry_over(const CarryOver& task, std::uint32_t first, std::uint32_t last);
+void carry_over(const CarryOver<D>& task, std::uint32_t first, std::uint32_t last);
 
 }  // namespace grseg

@@ -212,6 +212,7 @@ void PairSearch<D>::find(GrainState<D>& grains, const std::vector<Position<D>>& 
   for_each_part(threads_, strips.size(), [&](std::size_t s) {
     auto& pairs = strips[s].found;
     pairs.begin.assign(1, 0);
+    pairs.far.clear();
     for (std::int32_t band = 0; band < grid.bands(); ++band)
       for (std::int32_t slice = 0; slice < grid.slices(); ++slice)
         for (auto c = grid.first_column(s); c < grid.first_column(s + 1); ++c)
@@ -276,13 +277,16 @@ void PairSearch<D>::join_found(std::size_t grains)
   for (std::size_t s = 0; s < strips.size(); ++s)
     first[s + 1] = first[s] + static_cast<std::uint32_t>(strips[s].found.size());
   found.begin.resize(grains + 1);
+  found.far.resize(grains);
   found.begin[grains] = first.back();
   found.b.resize(first.back() + block_lanes);
   for_each_part(threads_, strips.size(), [&](std::size_t s) {
     const auto& own = strips[s].found;
     const auto bodies = grid.bodies_of_strip(s);
-    for (auto a = bodies.begin; a < bodies.end; ++a)
+    for (auto a = bodies.begin; a < bodies.end; ++a) {
       found.begin[a] = first[s] + own.begin[a - bodies.begin];
+      found.far[a] = first[s] + own.far[a - bodies.begin];
+    }
     std::copy_n(own.b.begin(), own.size(), found.b.begin() + first[s]);
   });
 }

@@ -4,9 +4,11 @@
 #include "formats/core/frame.hpp"
 #include "sim/contact/contact_law.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace grseg {
@@ -40,18 +42,27 @@ struct PairGeometry<3> {
   bool listed() const { return shift_z == shift_z; }
 };
 
-/// State of a pair after the previous step; all 0 for a pair that did not act.
+/// State of a pair after the previous step; all 0 for a pair that did not act. Four numbers, which
+/// one load reads; the approach of spheres is in Pairs::approach.
 template <int D>
-struct alignas(D == 2 ? 32 : 64) PairMemory {
+struct alignas(32) PairMemory {
   double n = 0;            ///< kg m/s, normal impulse
   Turning<D, double> t{};  ///< kg m/s, tangential impulse
   double approach = 0;     ///< m/s, of a pair that was slowed down (Rebound::remembered)
-  Turning<D, double> unused{};
+  double unused = 0;
 };
+template <>
+struct alignas(32) PairMemory<3> {
+  double n = 0;
+  Turning<3, double> t{};
+};
+constexpr std::uint32_t memory_doubles = sizeof(PairMemory<2>) / sizeof(double);
+static_assert(sizeof(PairMemory<2>) == sizeof(PairMemory<3>));
 
 /// A class of pairs, see Pairs.
 struct PairClass {
   std::uint32_t begin, end;  ///< first entry and end, multiples of 8
+  std::uint32_t near_end;    ///< end of the entries that can be near (FoundPairs)
   std::int32_t wall;         ///< number of the wall, or -1 for pairs of grains
   bool alone;    ///< pairs that got no colour, because a body has more pairs than colours
   bool on_base;  ///< true if the partners j do not move
@@ -66,6 +77,7 @@ struct Pairs {
   std::vector<std::uint32_t> i, j;
   std::vector<PairGeometry<D>> geometry;
   std::vector<PairMemory<D>> memory;
+  std::vector<double> approach;  ///< m/s, of spheres, as in PairMemory<2>
   /// Classes, strip by strip (pair_search.hpp); in a strip first pairs of mobile grains, then pairs
   /// with a boundary grain, then pairs at walls. Entries that pad a class to a multiple of 8 are
   /// not listed and never touch: a number of their geometry is NaN. The entry after the last pair
@@ -90,6 +102,31 @@ struct Pairs {
   /// Number of entries without the neutral pair.
   std::size_t size() const { return i.empty() ? 0 : i.size() - 1; }
   bool listed(std::size_t k) const { return geometry[k].listed(); }
+
+  double approach_of(std::size_t k) const
+  {
+    if constexpr (D == 2)
+      return memory[k].approach;
+    else
+      return approach[k];
+  }
+  void set_memory(std::size_t k, double n, const Turning<D, double>& t, double of_approach)
+  {
+    if constexpr (D == 2)
+      memory[k] = {n, t, of_approach};
+    else
+      memory[k] = {n, t}, approach[k] = of_approach;
+  }
+  /// Clears the memories of pairs begin .. end-1.
+  void clear_memories(std::size_t begin, std::size_t end)
+  {
+    const auto clear = [&](auto& numbers) {
+      std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(begin), end - begin,
+                  typename std::decay_t<decltype(numbers)>::value_type{});
+    };
+    clear(memory);
+    if constexpr (D == 3) clear(approach);
+  }
 };
 
 }  // namespace grseg

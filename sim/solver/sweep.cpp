@@ -30,27 +30,27 @@ struct alignas(64) LaneResults {
   using Tag = TagOf<Real>;
   using V = hn::Vec<Tag>;
   LanesOf<Real> largest{}, squares{}, reference{};
+  LanesOf<Real> sliding{};  // largest square of a tangential change
 
   template <Effects with>
   HWY_INLINE void add(std::size_t lane, const Relaxed<D, V>& r)
   {
-    const auto add_squares = [&](LanesOf<Real>& lanes, V normal, const Turning<D, V>& tangential)
-                                 HWY_ATTR {
-                                   V sum = load(lanes, lane) + normal * normal;
-                                   if constexpr (with.friction)
-                                     for (const V t : tangential) sum = sum + t * t;
-                                   store(sum, lanes, lane);
-                                 };
-    add_squares(squares, r.change_n, r.change_t);
+    const auto add_to = [lane](LanesOf<Real>& lanes, V normal, V tangential) HWY_ATTR {
+      V sum = load(lanes, lane) + normal * normal;
+      if constexpr (with.friction) sum = sum + tangential;
+      store(sum, lanes, lane);
+    };
+    const V slide = dot(r.change_t, r.change_t);
+    add_to(squares, r.change_n, slide);
     if constexpr (measured == Measured::squares) return;
-    V most = larger(load(largest, lane), r.change_n);
-    if constexpr (with.friction) most = larger(most, norm(r.change_t));
-    store(most, largest, lane);
-    add_squares(reference, r.level_n, r.level_t);
+    store(larger(load(largest, lane), r.change_n), largest, lane);
+    if constexpr (with.friction) store(larger(load(sliding, lane), slide), sliding, lane);
+    add_to(reference, r.level_n, dot(r.level_t, r.level_t));
   }
   HWY_INLINE SweepResult total() const
   {
-    return {*std::max_element(largest.begin(), largest.end()), sum(squares), sum(reference)};
+    const auto most = [](const LanesOf<Real>& l) { return *std::max_element(l.begin(), l.end()); };
+    return {std::max(most(largest), std::sqrt(most(sliding))), sum(squares), sum(reference)};
   }
 };
 

@@ -225,7 +225,7 @@ void Simulation<D>::take(const Part& part, Frame<D>* frame, StepReport& report)
   if (try_to_take(part, frame, own)) return add_part(own, report);
   const double half = std::ldexp(1, -part.halvings - 1);
   const auto lengthen_impulses = [&](double factor) {
-    for (auto& memory : pairs_.memories()) scale(factor, memory);
+    for (auto& memory : pairs_.pairs().memory) scale(factor, memory);
   };
   world_.step = length / 2;
   lengthen_impulses(0.5);
@@ -368,6 +368,7 @@ bool Simulation<D>::find_contacts(double spread, StepReport& report)
   rule.restitution = world_.material.restitution;
   rule.horizon = world_.law.horizon * world_.step;
   rule.periodic = world_.general || world_.box.periodic_x || world_.box.periodic_z;
+  rule.only_near = pairs_.only_near();
   found_ = grseg::find_contacts(pairs_.pairs(), rule, contacts_, threads_);
   const auto& sums = found_;
   report.touching = sums.touching;
@@ -384,7 +385,7 @@ void Simulation<D>::forget_impulses(bool renewed)
   if (renewed || restored_)
     pairs_.forget();
   else
-    grseg::forget_impulses<D>(pairs_.pairs(), contacts_, pairs_.memories(), threads_);
+    grseg::forget_impulses<D>(contacts_, pairs_.pairs(), threads_);
   restored_ = false;
 }
 
@@ -423,7 +424,7 @@ void Simulation<D>::stop_at_coincidence(double time) const
 template <int D>
 void Simulation<D>::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses<D>(contacts_, pairs_.memories(), threads_);
+  const auto sums = grseg::keep_impulses<D>(contacts_, pairs_.pairs(), threads_);
   lower_guesses();
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
@@ -438,7 +439,7 @@ void Simulation<D>::lower_guesses()
     return;
   for (const auto& [pair, factor] :
        impacts_of<D>(contacts_, guesses_, impulse_of_fall() / mobile_mass_))
-    scale(factor, pairs_.memories()[pair]);
+    scale(factor, pairs_.pairs().memory[pair]);
 }
 
 template <int D>

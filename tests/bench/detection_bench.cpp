@@ -15,7 +15,7 @@ namespace {
 
 Simulation<2> bed(int copies)
 {
-  const auto one = flow("standard");
+  const auto one = flow<2>("standard");
   auto simulation = side_by_side(one, one.world(), copies);
   for (int warm = 0; warm < 20; ++warm) simulation.advance();
   return simulation;
@@ -127,8 +127,8 @@ void keep_and_forget(benchmark::State& state, int copies)
   std::vector<StripContacts<2>> strips;
   for (int step = 0; step < 2; ++step) find_contacts(now.list.pairs(), now.rule, strips);
   for (auto _ : state) {
-    forget_impulses<2>(now.list.pairs(), strips, now.list.memories());
-    benchmark::DoNotOptimize(keep_impulses<2>(strips, now.list.memories()));
+    forget_impulses<2>(strips, now.list.pairs());
+    benchmark::DoNotOptimize(keep_impulses<2>(strips, now.list.pairs()));
   }
   report_contacts(state, strips);
 }

@@ -293,7 +293,7 @@ struct Prepared {
     for (std::size_t k = 0; k < list.pairs().size(); ++k)
       if (list.pairs().listed(k)) {
         const double load = (k % 2 == 0 ? 0.01 : 1) * static_cast<double>(1 + k);
-        list.memories()[k] = {load, {0.5 - static_cast<double>(k % 7)}};
+        list.pairs().memory[k] = {load, {0.5 - static_cast<double>(k % 7)}};
       }
     rule.ahead = rule.middle = state.position;
     rule.motion = state.motion;
@@ -511,8 +511,8 @@ TEST_P(DetectionOn, PairsStillApartAreSlowedDownAsTheLawInWordsSaysToTheLastBit)
     p.rule.ahead = then;
     // New pairs, pairs that were slowed down in the step before, and pairs that have had a load for long.
     for (std::size_t k = 0; k < p.list.pairs().size(); ++k) {
-      if (k % 3 != 2) p.list.memories()[k] = {};
-      if (k % 3 == 1) p.list.memories()[k].approach = 0.1 * static_cast<double>(k % 7);
+      if (k % 3 != 2) p.list.pairs().memory[k] = {};
+      if (k % 3 == 1) p.list.pairs().memory[k].approach = 0.1 * static_cast<double>(k % 7);
     }
     expect_the_law_in_words(p, seen);
   }
@@ -562,7 +562,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
       base += n * normal - n / 2 * tangent;
     }
   }
-  const auto sums = keep_impulses<2>(strips, p.list.memories());
+  const auto sums = keep_impulses<2>(strips, p.list.pairs());
   EXPECT_EQ(sums.force_bearing, bearing);
   EXPECT_NEAR(sums.gap_bearing, gap, 1e-12);
   EXPECT_NEAR((sums.on_base_side - base).norm(), 0, 1e-12);
@@ -582,7 +582,7 @@ TEST_P(DetectionOn, ImpulsesGoBackToTheirPairsAndAreForgottenWithTheContact)
   for (std::size_t b = 0; b < contacts.size; ++b)
     acting.insert(contacts.origins[b].pair.begin(), contacts.origins[b].pair.end());
   const auto had = p.list.pairs().memory;
-  forget_impulses<2>(p.list.pairs(), strips, p.list.memories());
+  forget_impulses<2>(strips, p.list.pairs());
   std::size_t gone = 0;
   for (std::size_t b = 0; b < size; ++b)
     for (const auto pair : before[b].pair) {

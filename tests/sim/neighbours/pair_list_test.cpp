@@ -186,11 +186,12 @@ TEST(PairList, APairThatStaysKeepsItsImpulseThroughARenewal)
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 2u);
   for (const auto& pair : list.pairs())
-    list.list.memories()[pair.entry] = pair.i == 0 ? PairMemory<2>{3, {-1}} : PairMemory<2>{4, {1}};
+    list.list.pairs().memory[pair.entry] =
+        pair.i == 0 ? PairMemory<2>{3, {-1}} : PairMemory<2>{4, {1}};
   position[2].x() = 5;  // the contact of the second pair ends
   list.renew(position);
   ASSERT_EQ(list.pairs().size(), 1u);
-  const auto impulse = list.list.memories()[list.pairs()[0].entry];
+  const auto impulse = list.list.pairs().memory[list.pairs()[0].entry];
   EXPECT_EQ(impulse.n, 3);
   EXPECT_EQ(impulse.t[0], -1);
 }
@@ -214,14 +215,14 @@ TEST(PairList, EveryPairOfABedKeepsItsOwnImpulseThroughARenewal)
   };
   const auto before = list.pairs();
   EXPECT_EQ(before.size(), 12u * 20 - 20 + 11 * 20 + 20);
-  for (const auto& pair : before) list.list.memories()[pair.entry] = own(pair);
+  for (const auto& pair : before) list.list.pairs().memory[pair.entry] = own(pair);
   for (auto& x : position) x.x() += 7.7 - (x.x() + 7.7 >= 20 ? 20 : 0);
   list.renew(position);
   EXPECT_EQ(list.pairs().size(), before.size());
   for (const auto& pair : list.pairs()) {
-    EXPECT_EQ(list.list.memories()[pair.entry].n, own(pair).n) << pair.i << ' ' << pair.j;
-    EXPECT_EQ(list.list.memories()[pair.entry].t, own(pair).t);
-    EXPECT_EQ(list.list.memories()[pair.entry].approach, own(pair).approach);
+    EXPECT_EQ(list.list.pairs().memory[pair.entry].n, own(pair).n) << pair.i << ' ' << pair.j;
+    EXPECT_EQ(list.list.pairs().memory[pair.entry].t, own(pair).t);
+    EXPECT_EQ(list.list.pairs().memory[pair.entry].approach, own(pair).approach);
   }
 }
 
