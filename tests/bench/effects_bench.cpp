@@ -26,7 +26,7 @@ using Change = void (*)(World<2>&);
 /// The developed chute, without spin, with the conditions changed by `changes`.
 Simulation<2> chute(const std::vector<Change>& changes)
 {
-  const auto one = flow("standard");
+  const auto one = flow<2>("standard");
   auto world = one.world();
   for (const auto change : changes) change(world);
   auto simulation = side_by_side(one, world, 1);

@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-/// Cost of a step of Staron & Phillips' chute and, in wide beds, the part of it that a new list
-/// takes, and the memory. Wide beds are copies of the chute side by side.
+/// Cost of a step of Staron & Phillips' chute and of a chute of spheres; in wide beds also the memory.
+/// Wide beds are copies of the chute side by side.
 namespace grseg {
 namespace {
 
@@ -39,19 +39,21 @@ class PeakMemory {
   double before_ = 0;
 };
 
-Simulation<2> bed(const std::string& accuracy, int copies, int threads)
+template <int D>
+Simulation<D> bed(const std::string& accuracy, int copies, int threads)
 {
-  if (copies == 1) return flow(accuracy);
-  auto world = flow(accuracy).world();
+  if (copies == 1) return flow<D>(accuracy);
+  auto world = flow<D>(accuracy).world();
   world.threads = threads;
-  return side_by_side(flow(accuracy), world, copies);
+  return side_by_side(flow<D>(accuracy), world, copies);
 }
 
+template <int D>
 void step(benchmark::State& state, const std::string& accuracy, int copies, int threads)
 {
-  flow(accuracy);
+  flow<D>(accuracy);
   const PeakMemory memory;
-  auto simulation = bed(accuracy, copies, threads);
+  auto simulation = bed<D>(accuracy, copies, threads);
   PeakMemory::reset();
   // The second list is the first one that exists beside an old list; after it all memory is allocated.
   for (int warm = 0; warm < 20 || simulation.pair_list_renewals() < 3; ++warm) simulation.advance();
@@ -71,12 +73,12 @@ void step(benchmark::State& state, const std::string& accuracy, int copies, int 
       memory.bytes() / static_cast<double>(simulation.world().grains.size());
 }
 
+template <int D>
 void add(const std::string& accuracy, int copies, int threads, int steps)
 {
-  const auto name = copies > 1
-                        ? fmt::format("step/{}/{}_wide/{}_threads", accuracy, copies, threads)
-                        : fmt::format("step/{}", accuracy);
-  auto* added = benchmark::RegisterBenchmark(name.c_str(), step, accuracy, copies, threads);
+  auto name = fmt::format("step/{}/{}", D == 2 ? "discs" : "spheres", accuracy);
+  if (copies > 1) name += fmt::format("/{}_wide/{}_threads", copies, threads);
+  auto* added = benchmark::RegisterBenchmark(name.c_str(), step<D>, accuracy, copies, threads);
   added->Iterations(steps)->Unit(benchmark::kMicrosecond);
   if (threads > 1) added->UseRealTime();
 }
@@ -87,10 +89,15 @@ void add(const std::string& accuracy, int copies, int threads, int steps)
 int main(int argc, char** argv)
 {
   for (const char* accuracy : {"standard", "draft"}) {
-    grseg::add(accuracy, 1, 1, 5000);
-    for (const int threads : {1, 2}) grseg::add(accuracy, 10, threads, 300);
-    for (const int threads : {1, 2}) grseg::add(accuracy, 100, threads, 60);
-    for (const int threads : {1, 2}) grseg::add(accuracy, 300, threads, 30);
+    grseg::add<2>(accuracy, 1, 1, 5000);
+    grseg::add<3>(accuracy, 1, 1, 2000);
+    for (const int threads : {1, 2}) {
+      grseg::add<2>(accuracy, 10, threads, 300);
+      grseg::add<2>(accuracy, 100, threads, 60);
+      grseg::add<2>(accuracy, 300, threads, 30);
+      grseg::add<3>(accuracy, 9, threads, 100);
+      grseg::add<3>(accuracy, 90, threads, 20);
+    }
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

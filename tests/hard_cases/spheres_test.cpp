@@ -259,5 +259,109 @@ TEST(ClusterOfSpheres, KeepsMomentumAndAllComponentsOfAngularMomentum)
   }
 }
 
+/// 125 spheres of two sizes in a cell periodic along x and z, above a rough floor; `x` and `z` are the
+/// axes of their pattern.
+Simulation<3> heap_along(int x, int z)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-0.1, 0.1);
+  std::vector<double> radii;
+  std::vector<Vec3> position;
+  for (int k = 0; k < 125; ++k) {
+    radii.push_back(k % 3 == 0 ? 0.45 : 0.3);
+    Vec3 at;
+    at[x] = k % 5 + 0.5 + number(random);
+    at[1] = k / 25 + 0.7 + number(random);
+    at[z] = k / 5 % 5 + 0.5 + number(random);
+    position.push_back(at);
+  }
+  auto world = world_of(radii);
+  world.box = {5, 100, true, 3, 5, true};
+  world.walls = {{Vec3::Zero(), Vec3::UnitY()}};
+  world.material = {0.5, 0.5};
+  world.gravity = Vec3(0, -g * std::cos(0.5), 0);
+  world.gravity[x] = g * std::sin(0.5);
+  return {world, position};
+}
+
+TEST(FallingSpheres, MoveAlongZAsTheyMoveAlongX)
+{
+  // Exchanging x and z is a reflection: it exchanges the velocities and reverses all spins. The order
+  // of contacts changes, so each solve differs by its tolerance, 1e-13 g h, and collisions let the
+  // difference grow, tenfold in each of them.
+  Case place("S10", "difference of places after 0.6 s between flows along x and along z, m");
+  Simulation<3> a = heap_along(0, 2), b = heap_along(2, 0);
+  std::size_t contacts = 0;
+  for (int k = 0; k < 600; ++k) {
+    contacts += a.advance().force_bearing;
+    b.advance();
+  }
+  EXPECT_GT(contacts, 1000u);
+  for (std::size_t k = 0; k < 125; ++k) {
+    const Vec3 p = a.position(k), q = b.position(k);
+    place.at_most((p - Vec3(q.z(), q.y(), q.x())).norm(), 1e-8);
+  }
+}
+
+TEST(FallingSpheres, EveryPairThatOverlapsIsAContact)
+{
+  // Pairs of grains that cannot touch yet are not tested; no such pair may be missed.
+  auto heap = heap_along(0, 2);
+  for (std::size_t k = 0; k < 125; ++k) heap.set_velocity(k, 4 * (k % 2 ? 1 : -1) * Vec3(1, 0, 1));
+  Case found("S14", "pairs that overlap and were not found");
+  Frame<3> frame;
+  std::size_t all = 0;
+  for (int k = 0; k < 600; ++k) {
+    const auto report = heap.advance(frame);
+    std::size_t overlapping = 0;
+    for (std::size_t i = 0; i < 125; ++i) {
+      const double radius = heap.world().grains.radius[i];
+      overlapping += frame.position[i].y() <= radius ? 1 : 0;
+      for (std::size_t j = 0; j < i; ++j) {
+        Vec3 apart = frame.position[i] - frame.position[j];
+        for (const int axis : {0, 2}) apart[axis] -= 5 * std::round(apart[axis] / 5);
+        overlapping += apart.norm() <= radius + heap.world().grains.radius[j] ? 1 : 0;
+      }
+    }
+    found.near(static_cast<double>(report.touching), static_cast<double>(overlapping), 0);
+    all += overlapping;
+  }
+  EXPECT_GT(all, 1000u);
+  EXPECT_GT(heap.pair_list_renewals(), 10u);
+}
+
+TEST(SphereInAPit, RestsWithForcesThatStaticsAllows)
+{
+  // Three frozen spheres carry the weight: sum of N cos alpha + T sin alpha = m g, |T| <= mu N, where
+  // alpha is the angle of the contacts from the vertical.
+  Case rests("S12", "way in 1 s, m"), forces("S12", "sum of normal forces over m g");
+  for (const double mu : {0.1, 0.5})
+    for (const double apart : {1.1, 1.6}) {
+      auto world = world_of({r, r, r, r});
+      for (int k = 0; k < 3; ++k) world.grains.fixed[static_cast<std::size_t>(k)] = 1;
+      world.material = {mu, 0};
+      world.gravity = {0, -g, 0};
+      const double ring = 2 * r * apart / std::sqrt(3.0),
+                   height = std::sqrt(4 * r * r - ring * ring);
+      std::vector<Vec3> position;
+      for (int k = 0; k < 3; ++k) {
+        const double angle = 2 * std::numbers::pi * k / 3;
+        position.emplace_back(50 + ring * std::cos(angle), 50, 50 + ring * std::sin(angle));
+      }
+      position.emplace_back(50, 50 + height, 50);
+      Simulation<3> pit(world, position);
+      Frame<3> frame;
+      for (int k = 0; k < 1000; ++k) pit.advance(frame);
+      rests.near((pit.position(3) - position[3]).norm(), 0, 1e-9);
+      double normal = 0;
+      for (std::size_t c = 0; c < frame.contacts.size(); ++c)
+        normal += frame.contacts.force[c].dot(frame.contacts.branch[c].normalized());
+      const double cosine = height / (2 * r), sine = ring / (2 * r);
+      normal /= world.grains.mass[3] * g;
+      const double most = cosine > mu * sine ? 1 / (cosine - mu * sine) : 1e3;
+      forces.between(normal, 1 / (cosine + mu * sine) * (1 - 1e-9), most * (1 + 1e-9));
+    }
+}
+
 }  // namespace
 }  // namespace grseg::hard_cases
