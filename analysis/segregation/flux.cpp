@@ -317,25 +317,25 @@ void SegregationSeries<D>::add(const Grains& grains, const Frame<D>& frame)
   now.bed = heights.bed;
   now.shear_rate = shear_rate(grains, frame, now.bed);
   now.mixing = mixing_index(layers_, grains, frame);
-  if (!moments_.empty()) {
-    const auto& last = moments_.back();
+  if (!states_.empty()) {
+    const auto& last = states_.back();
     now.strain = last.strain + (last.shear_rate + now.shear_rate) / 2 * (now.time - last.time);
   }
-  moments_.push_back(now);
+  states_.push_back(now);
 }
 
 template <int D>
 void SegregationSeries<D>::merge(const SegregationSeries& later)
 {
-  if (later.moments_.empty()) return;
+  if (later.states_.empty()) return;
   double offset = 0;
-  if (!moments_.empty()) {
-    const auto &last = moments_.back(), &next = later.moments_.front();
+  if (!states_.empty()) {
+    const auto &last = states_.back(), &next = later.states_.front();
     offset = last.strain + (last.shear_rate + next.shear_rate) / 2 * (next.time - last.time);
   }
-  for (auto moment : later.moments_) {
-    moment.strain += offset;
-    moments_.push_back(moment);
+  for (auto state : later.states_) {
+    state.strain += offset;
+    states_.push_back(state);
   }
 }
 

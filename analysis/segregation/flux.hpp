@@ -155,11 +155,11 @@ class SegregationSeries {
   void add(const Grains& grains, const Frame<D>& frame);
   /// Appends the frames of `later`, which follow in time.
   void merge(const SegregationSeries& later);
-  const std::vector<BedState>& moments() const { return moments_; }
+  const std::vector<BedState>& states() const { return states_; }
 
  private:
   Layers layers_;
-  std::vector<BedState> moments_;
+  std::vector<BedState> states_;
 };
 
 }  // namespace grseg

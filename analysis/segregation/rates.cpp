@@ -19,13 +19,11 @@
 namespace grseg {
 namespace {
 
-using Moment = BedState;
-
 /// The exponential approach of y_L, fitted against time or against strain.
-void add_approach(const std::vector<Moment>& moments, bool against_time, NamedNumbers& summary)
+void add_approach(const std::vector<BedState>& states, bool against_time, NamedNumbers& summary)
 {
-  const auto x = numbers_of(moments, against_time ? &Moment::time : &Moment::strain);
-  const auto y = numbers_of(moments, &Moment::large);
+  const auto x = numbers_of(states, against_time ? &BedState::time : &BedState::strain);
+  const auto y = numbers_of(states, &BedState::large);
   const auto fit = fit_approach(x, y);
   const std::string unit = against_time ? "[s]" : "_strain", kind = against_time ? "" : "_strain";
   add_all(summary.numbers, {{"y_L_start" + kind + "[m]", fit.start},
@@ -51,21 +49,21 @@ struct WindowMean {
   double time, strain, mixing, error;
 };
 
-std::vector<WindowMean> window_means(const std::vector<Moment>& moments,
+std::vector<WindowMean> window_means(const std::vector<BedState>& states,
                                      const std::vector<std::size_t>& windows)
 {
   std::vector<WindowMean> means;
-  auto first = moments.begin();
+  auto first = states.begin();
   for (const auto count : windows) {
-    const std::vector<Moment> own(first, first + static_cast<std::ptrdiff_t>(count));
+    const std::vector<BedState> own(first, first + static_cast<std::ptrdiff_t>(count));
     first += static_cast<std::ptrdiff_t>(count);
-    const auto mixing = numbers_of(own, &Moment::mixing);
+    const auto mixing = numbers_of(own, &BedState::mixing);
     const Eigen::VectorXd excess = mixing.array() - mixing.mean();
     const auto frames = static_cast<double>(mixing.size());
     const double error = standard_error(excess / frames, 1).error;
     // The error is NaN if all frames depend on each other; then they count as one value.
-    means.push_back({numbers_of(own, &Moment::time).mean(), numbers_of(own, &Moment::strain).mean(),
-                     mixing.mean(),
+    means.push_back({numbers_of(own, &BedState::time).mean(),
+                     numbers_of(own, &BedState::strain).mean(), mixing.mean(),
                      std::isnan(error) ? std::sqrt(excess.squaredNorm() / frames) : error});
   }
   return means;
@@ -76,10 +74,10 @@ Estimate about(const WindowMean& mean)
   return {mean.mixing, mean.mixing - 1.96 * mean.error, mean.mixing + 1.96 * mean.error};
 }
 
-void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_t>& windows,
+void add_mixing(const std::vector<BedState>& states, const std::vector<std::size_t>& windows,
                 NamedNumbers& summary)
 {
-  const auto means = window_means(moments, windows);
+  const auto means = window_means(states, windows);
   const auto most = std::ranges::max_element(
       means, [](const auto& a, const auto& b) { return a.mixing < b.mixing; });
   Estimate time, strain;
@@ -92,8 +90,8 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
     const auto from = [&](double x, double WindowMean::*place, double origin) {
       return Estimate{x - origin, (*first).*place - origin, (*last).*place - origin};
     };
-    time = from(most->time, &WindowMean::time, moments.front().time);
-    strain = from(most->strain, &WindowMean::strain, moments.front().strain);
+    time = from(most->time, &WindowMean::time, states.front().time);
+    strain = from(most->strain, &WindowMean::strain, states.front().strain);
   } else {
     summary.remarks.push_back(fmt::format(
         "t_mixing: the mixing index is largest in the {} window, so its time is unknown",
@@ -110,13 +108,13 @@ void add_mixing(const std::vector<Moment>& moments, const std::vector<std::size_
 
 }  // namespace
 
-NamedNumbers segregation_times(const std::vector<Moment>& moments,
+NamedNumbers segregation_times(const std::vector<BedState>& states,
                                const std::vector<std::size_t>& windows)
 {
   NamedNumbers summary;
-  add_approach(moments, true, summary);
-  add_approach(moments, false, summary);
-  add_mixing(moments, windows, summary);
+  add_approach(states, true, summary);
+  add_approach(states, false, summary);
+  add_mixing(states, windows, summary);
   return summary;
 }
 
@@ -255,29 +253,27 @@ NamedNumbers segregation_rates(const std::vector<RatePoint>& points)
 
 namespace {
 
-using Moment = BedState;
-
 struct BedColumn {
   const char* column;
-  double Moment::*place;
+  double BedState::*place;
 };
 constexpr std::array bed_columns{
-    BedColumn{"yL[m]", &Moment::large},   BedColumn{"yS[m]", &Moment::small},
-    BedColumn{"height[m]", &Moment::bed}, BedColumn{"shear_rate[1/s]", &Moment::shear_rate},
-    BedColumn{"strain", &Moment::strain}, BedColumn{"mixing", &Moment::mixing}};
+    BedColumn{"yL[m]", &BedState::large},   BedColumn{"yS[m]", &BedState::small},
+    BedColumn{"height[m]", &BedState::bed}, BedColumn{"shear_rate[1/s]", &BedState::shear_rate},
+    BedColumn{"strain", &BedState::strain}, BedColumn{"mixing", &BedState::mixing}};
 
-Moment mean_of_last(const std::vector<Moment>& moments, std::size_t count)
+BedState mean_of_last(const std::vector<BedState>& states, std::size_t count)
 {
-  Moment mean;
+  BedState mean;
   for (const auto& [column, place] : bed_columns) {
-    for (std::size_t k = moments.size() - count; k < moments.size(); ++k)
-      mean.*place += moments[k].*place;
+    for (std::size_t k = states.size() - count; k < states.size(); ++k)
+      mean.*place += states[k].*place;
     mean.*place /= static_cast<double>(count);
   }
   return mean;
 }
 
-std::vector<Cell> cells(const Moment& bed)
+std::vector<Cell> cells(const BedState& bed)
 {
   return listed(bed_columns, [&](const BedColumn& own) {
     return Cell{own.column, bed.*own.place};
@@ -301,8 +297,8 @@ void SegregationTable<D>::add(const Grains& grains, const SegregationSeries<D>& 
                               const SegregationFlux<D>& flux)
 {
   series_.merge(series);
-  const auto count = series.moments().size();
-  bed_ = mean_of_last(series_.moments(), count);
+  const auto count = series.states().size();
+  bed_ = mean_of_last(series_.states(), count);
   results_ = flux.results(grains, bed_.bed);
   for (std::size_t n = 0; n < results_.size(); ++n) {
     const auto& result = results_[n];
@@ -318,7 +314,7 @@ template <int D>
 std::vector<std::string> SegregationTable<D>::columns()
 {
   auto names = columns_of(SegregationResult{}.cells(D));
-  return add_all(names, columns_of(cells(Moment{})));
+  return add_all(names, columns_of(cells(BedState{})));
 }
 
 template <int D>
@@ -339,7 +335,7 @@ std::vector<double> SegregationTable<D>::bed_row() const
 template <int D>
 NamedNumbers SegregationTable<D>::summary(const RowFilter& filter) const
 {
-  auto summary = segregation_times(series_.moments(), windows_);
+  auto summary = segregation_times(series_.states(), windows_);
   const auto rates =
       segregation_rates(filtered(points_, filter, {small_diameter_, large_diameter_}));
   add_all(summary.numbers, rates.numbers);

@@ -19,7 +19,7 @@ namespace grseg {
 ///   t_mixing      middle of the best mixed window; the interval extends from the first to the last
 ///                 window whose index does not differ from it significantly
 /// `windows` lists the number of frames in each window.
-NamedNumbers segregation_times(const std::vector<BedState>& moments,
+NamedNumbers segregation_times(const std::vector<BedState>& states,
                                const std::vector<std::size_t>& windows);
 
 /// One layer in one window.

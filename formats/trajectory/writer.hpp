@@ -17,7 +17,7 @@ class TrajectoryReader;
 struct StorageSettings {
   int compression = 0;   ///< deflate level; must be 0 for `live` files
   bool float32 = false;  ///< true: half the file size, but force balances close only to 1e-6
-  /// True: each appended frame is in the file at once, survives a kill at any moment, and can be
+  /// True: each appended frame is in the file at once, survives a kill at any time, and can be
   /// read while the run goes on (HDF5's SWMR mode). False: the file can be read after its closing.
   bool live = false;
   std::size_t contact_chunk = 8192;  ///< rows per chunk of contact datasets

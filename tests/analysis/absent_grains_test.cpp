@@ -199,7 +199,7 @@ TEST(AbsentGrains, HaveNoPartInHeightsShearRateAndMixing)
 {
   expect_equal(SegregationSeries<2>(unit_layers), [](const SegregationSeries<2>& series) {
     std::vector<double> numbers;
-    for (const auto& now : series.moments())
+    for (const auto& now : series.states())
       append(numbers,
              std::vector{now.large, now.small, now.bed, now.shear_rate, now.mixing, now.strain});
     return numbers;

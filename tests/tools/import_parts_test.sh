@@ -25,12 +25,12 @@ spheres="--format lammps --grains $source/data/sample/spheres/atoms.dump.gz
   --contacts $source/data/sample/spheres/contacts.dump.gz --units 1:1:1 --step 8.8e-4 --gravity 1 --slope 26
   --axes xz --boundary 1 --small 2 --large 3"
 in_parts 3 $spheres
-in_parts 13 $spheres --compression 4 # more parts than moments
+in_parts 13 $spheres --compression 4 # more parts than frames
 in_parts 2 $spheres --float32 --begin step:140000
 in_parts 3 --format lammps --grains "$inputs/lammps/atoms.dump" --contacts "$inputs/lammps/contacts.dump" --units si \
   --step 1e-5 --gravity 9.8 --slope 23 --boundary 3 --columns i=2,j=3,dist=6,force=7,tangential=10
 
-# A grain that is there for half of the time, falling, and a moment without contacts.
+# A grain that is there for half of the time, falling, and a frame without contacts.
 awk 'BEGIN { print "t,id,x,y,vx,vy,fx,fy,d,m" > "grains.csv"; print "t,i,j,fx,fy" > "contacts.csv"
   for (k = 0; k < 12; ++k) {
     t = k * 0.01

@@ -16,8 +16,8 @@ importer, exporter, dumps, run = (os.path.abspath(word) for word in sys.argv[1:]
 
 def repeat(name, times):
     """The frames of a dump, repeated with increasing steps."""
-    moments = open(os.path.join(dumps, name)).read().split("ITEM: TIMESTEP\n")[1:]
-    bodies = [moment.split("\n", 1)[1] for moment in moments]
+    frames = open(os.path.join(dumps, name)).read().split("ITEM: TIMESTEP\n")[1:]
+    bodies = [frame.split("\n", 1)[1] for frame in frames]
     with open(name, "w") as out:
         for k in range(times):
             out.write(f"ITEM: TIMESTEP\n{1000 * k}\n{bodies[k % len(bodies)]}")

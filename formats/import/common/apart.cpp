@@ -121,14 +121,14 @@ struct News {
   ArchiveFacts facts;
   std::vector<std::string> remarks;
   bool more = true;
-  ArchiveMoment moment;
+  ArchiveFrame frame;
 };
 
 template <class Pass>
 void each_of(News& news, Pass& pass)
 {
-  auto& [facts, remarks, more, moment] = news;
-  pass(facts, remarks, more, moment);
+  auto& [facts, remarks, more, frame] = news;
+  pass(facts, remarks, more, frame);
 }
 
 void read_apart(Archive& archive, const Apart::Send& send)
@@ -141,7 +141,7 @@ void read_apart(Archive& archive, const Apart::Send& send)
   };
   tell();
   while (news.more) {
-    news.more = archive.next(news.moment);
+    news.more = archive.next(news.frame);
     tell();
   }
 }
@@ -155,12 +155,12 @@ class ApartArchive : public Archive {
   }
   const ArchiveFacts& facts() const override { return news_.facts; }
   std::vector<std::string> remarks() const override { return news_.remarks; }
-  bool next(ArchiveMoment& moment) override
+  bool next(ArchiveFrame& frame) override
   {
     if (!news_.more) return false;
     hear();
-    std::swap(moment, news_.moment);  // so that the memory of both is used again
-    if (news_.more) place_ = fmt::format("{} or later", moment.place);
+    std::swap(frame, news_.frame);  // so that the memory of both is used again
+    if (news_.more) place_ = fmt::format("{} or later", frame.place);
     return news_.more;
   }
 
@@ -254,9 +254,9 @@ void each_of(ArchiveContacts& contacts, Pass& pass)
 }
 
 template <class Pass>
-void each_of(ArchiveMoment& moment, Pass& pass)
+void each_of(ArchiveFrame& frame, Pass& pass)
 {
-  auto& [step, time, low, high, periodic, cell, grains, contacts, place, questions] = moment;
+  auto& [step, time, low, high, periodic, cell, grains, contacts, place, questions] = frame;
   pass(step, time, low, high, periodic, cell, grains, contacts, place, questions);
 }
 

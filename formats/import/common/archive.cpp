@@ -9,7 +9,7 @@
 namespace grseg {
 namespace {
 
-constexpr std::size_t enough_moments = 3;  // frames listed in a message
+constexpr std::size_t enough_frames = 3;  // frames listed in a message
 
 std::string sentence_of(const std::vector<Question>& questions)
 {
@@ -34,7 +34,7 @@ std::string OpenQuestions::options() const
   return text;
 }
 
-Vec3 ArchiveMoment::minimum_image(Vec3 between) const
+Vec3 ArchiveFrame::minimum_image(Vec3 between) const
 {
   for (int axis = 0; axis < 3; ++axis) {
     const double length = high[axis] - low[axis];
@@ -52,9 +52,9 @@ std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& gr
   return rows;
 }
 
-void enclose_grains(ArchiveMoment& moment)
+void enclose_grains(ArchiveFrame& frame)
 {
-  const auto& grains = moment.grains;
+  const auto& grains = frame.grains;
   Vec3 low = grains.position.front(), high = low;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec3 reach = Vec3::Constant(grains.radius.empty() ? 0 : grains.radius[g]);
@@ -62,17 +62,17 @@ void enclose_grains(ArchiveMoment& moment)
     high = high.cwiseMax(grains.position[g] + reach);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    if (moment.periodic[static_cast<std::size_t>(axis)]) continue;
-    moment.low[axis] = low[axis];
-    moment.high[axis] = high[axis];
-    moment.cell[static_cast<std::size_t>(axis)] = CellSource::grains;
+    if (frame.periodic[static_cast<std::size_t>(axis)]) continue;
+    frame.low[axis] = low[axis];
+    frame.high[axis] = high[axis];
+    frame.cell[static_cast<std::size_t>(axis)] = CellSource::grains;
   }
 }
 
-void Unmatched::add(const std::string& moment)
+void Unmatched::add(const std::string& when)
 {
   ++count;
-  if (first.size() < enough_moments) first.push_back(moment);
+  if (first.size() < enough_frames) first.push_back(when);
 }
 
 bool Matching::next(const Table& grains, const Table& contacts, const std::function<int()>& order,
@@ -92,7 +92,7 @@ bool Matching::next(const Table& grains, const Table& contacts, const std::funct
       more_contacts = pass(contacts, contacts_alone_);
   }
   const auto goes_on = [&](const Unmatched& alone) {
-    return to_the_end || (!any_of_both_ && alone.first.size() < enough_moments);
+    return to_the_end || (!any_of_both_ && alone.first.size() < enough_frames);
   };
   while (more_grains && goes_on(grains_alone_)) more_grains = pass(grains, grains_alone_);
   while (more_contacts && goes_on(contacts_alone_)) more_contacts = pass(contacts, contacts_alone_);

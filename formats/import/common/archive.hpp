@@ -136,9 +136,9 @@ enum class CellSource : std::uint8_t {
   grains    // extent of the grains in this frame: the archive states no cell, or one fitted to them
 };
 
-/// One frame of an archive, called a moment in the code: grains and contacts at the same time. At
-/// least one of step and time is set; the other follows from the length of a time step.
-struct ArchiveMoment {
+/// One frame of an archive: grains and contacts at the same time. At least one of step and time is
+/// set; the other follows from the length of a time step.
+struct ArchiveFrame {
   std::optional<std::int64_t> step;
   std::optional<double> time;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounds of the cell
@@ -156,14 +156,14 @@ struct ArchiveMoment {
 
 /// Sets the cell of a frame to the extent of its grains, along the axes that are not periodic. For
 /// archives that state no cell; the frame must have grains.
-void enclose_grains(ArchiveMoment& moment);
+void enclose_grains(ArchiveFrame& frame);
 
 /// Frames that are in one table of an archive and missing in the other, by their times or steps.
 struct Unmatched {
   std::size_t count = 0;
   std::vector<std::string> first;  // times or steps of the first of these frames, three at most
 
-  void add(const std::string& moment);
+  void add(const std::string& when);
 };
 
 /// Finds the frames that an archive's tables of grains and of contacts have in common. Both tables
@@ -227,9 +227,9 @@ class Archive {
   virtual const ArchiveFacts& facts() const = 0;
   /// Reads the next frame that has both grains and contacts; false at the end. Throws FormatError
   /// with file, line and remedy if the archive is damaged.
-  virtual bool next(ArchiveMoment& moment) = 0;
+  virtual bool next(ArchiveFrame& frame) = 0;
   /// Reads the grains of the next frame; may skip its contacts, which some formats do faster.
-  virtual bool next_grains(ArchiveMoment& moment) { return next(moment); }
+  virtual bool next_grains(ArchiveFrame& frame) { return next(frame); }
 
   /// Value of --columns by which the contacts are read; "" if the format fixes the columns.
   virtual std::string columns() const { return ""; }

@@ -13,7 +13,7 @@ namespace grseg {
 namespace {
 
 /// Row of the grain with this id. Throws FormatError if the frame does not have it.
-std::size_t row_of(const ImportedBed& bed, std::int64_t id, const ArchiveMoment& moment,
+std::size_t row_of(const ImportedBed& bed, std::int64_t id, const ArchiveFrame& raw,
                    const Frame<3>& frame)
 {
   const auto found = bed.rows.find(id);
@@ -21,16 +21,16 @@ std::size_t row_of(const ImportedBed& bed, std::int64_t id, const ArchiveMoment&
   throw FormatError(fmt::format(
       "{}: a contact names grain {}, which is not among the grains of this frame; are i and j "
       "ids, and were grains and contacts written at the same steps?",
-      moment.place, id));
+      raw.place, id));
 }
 
 /// Throws FormatError for a number that is not finite; not all readers check this.
-void require_numbers(const ImportedBed& bed, const ArchiveMoment& moment, const Frame<3>& frame)
+void require_numbers(const ImportedBed& bed, const ArchiveFrame& raw, const Frame<3>& frame)
 {
   const auto fail = [&](const std::string& what) {
-    throw FormatError(fmt::format("{}: {} has a number that is not finite", moment.place, what));
+    throw FormatError(fmt::format("{}: {} has a number that is not finite", raw.place, what));
   };
-  for (const auto id : moment.grains.id) {
+  for (const auto id : raw.grains.id) {
     const auto g = row(bed.rows.find(id));
     if (!frame.position[g].allFinite() || !frame.velocity[g].allFinite() ||
         !frame.angular_velocity[g].allFinite() ||
@@ -44,34 +44,34 @@ void require_numbers(const ImportedBed& bed, const ArchiveMoment& moment, const 
       fail(fmt::format("a contact of grain {}", bed.known.id[row(contacts.i[c])]));
 }
 
-void require_same_cell(const ImportedBed& bed, const ArchiveMoment& moment)
+void require_same_cell(const ImportedBed& bed, const ArchiveFrame& raw)
 {
   for (const auto& period : bed.periods) {
-    const double length = moment.high[period.axis] - moment.low[period.axis];
+    const double length = raw.high[period.axis] - raw.low[period.axis];
     if (std::abs(length - period.length) > 1e-9 * period.length)
       throw FormatError(
           fmt::format("{}: the periodic length is {:.10g}, but {:.10g} in the first frame; a cell "
                       "that changes cannot be imported",
-                      moment.place, length, period.length));
+                      raw.place, length, period.length));
   }
 }
 
 /// Throws FormatError if a vector lacks a component, which in three dimensions would be read as 0.
-void require_all_components(const ArchiveMoment& moment)
+void require_all_components(const ArchiveFrame& raw)
 {
-  auto missing = moment.grains.missing;
-  missing.insert(missing.end(), moment.contacts.missing.begin(), moment.contacts.missing.end());
+  auto missing = raw.grains.missing;
+  missing.insert(missing.end(), raw.contacts.missing.begin(), raw.contacts.missing.end());
   if (missing.empty()) return;
   throw FormatError(fmt::format(
       "{}: a flow in three dimensions needs all components, but there is no {}; write this column "
       "as well, or leave out the other components of the same vector",
-      moment.place, fmt::join(missing, ", nor ")));
+      raw.place, fmt::join(missing, ", nor ")));
 }
 
-void place(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t g, std::size_t to,
+void place(const ImportedBed& bed, const ArchiveFrame& raw, std::size_t g, std::size_t to,
            Frame<3>& frame)
 {
-  const auto& from = moment.grains;
+  const auto& from = raw.grains;
   Vec3 x = bed.components(from.position[g]) + bed.shift;
   for (const auto& [direction, length, axis, forward] : bed.periods) {
     double periods = std::floor(x[direction] / length);
@@ -86,7 +86,7 @@ void place(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t g, s
     }
     if (!(std::abs(periods) <= std::numeric_limits<std::int32_t>::max()))
       throw FormatError(fmt::format("{}: grain {} is {:.3g} periods from the cell, more than 2^31",
-                                    moment.place, from.id[g], periods));
+                                    raw.place, from.id[g], periods));
     frame.image[to][static_cast<std::size_t>(direction)] = static_cast<std::int32_t>(periods);
   }
   frame.position[to] = x;
@@ -100,13 +100,13 @@ void place(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t g, s
   if (!bed.is_boundary(to)) frame.force[to] = bed.components(from.force[g]);
 }
 
-void place_grains(const ImportedBed& bed, const ArchiveMoment& moment, Frame<3>& frame)
+void place_grains(const ImportedBed& bed, const ArchiveFrame& raw, Frame<3>& frame)
 {
-  const auto& from = moment.grains;
+  const auto& from = raw.grains;
   const auto n = bed.grains.size();
   const auto refuse_others = [&](const std::string& what) {
     throw OtherGrains(
-        fmt::format("{}: {}; not all frames have the grains of the first one", moment.place, what));
+        fmt::format("{}: {}; not all frames have the grains of the first one", raw.place, what));
   };
   if (!bed.grains_come_and_go && from.size() != n)
     refuse_others(fmt::format("{} grains, but {} in the first frame", from.size(), n));
@@ -114,9 +114,9 @@ void place_grains(const ImportedBed& bed, const ArchiveMoment& moment, Frame<3>&
     throw FormatError(fmt::format(
         "{}: earlier frames state how often grains have crossed the periodic cell, and this one "
         "does not; import them separately, with --begin and --end",
-        moment.place));
+        raw.place));
   if (from.velocity.empty() && from.size() > 0)
-    throw FormatError(fmt::format("{}: the grains have no velocities", moment.place));
+    throw FormatError(fmt::format("{}: the grains have no velocities", raw.place));
   frame.position.resize(n);
   frame.image.resize(n);
   frame.velocity.resize(n);
@@ -128,23 +128,22 @@ void place_grains(const ImportedBed& bed, const ArchiveMoment& moment, Frame<3>&
     const auto found = bed.rows.find(from.id[g]);
     if (found < 0) refuse_others(fmt::format("grain {} is not in the first frame", from.id[g]));
     if (placed[row(found)])
-      throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, from.id[g]));
+      throw FormatError(fmt::format("{}: grain {} appears twice", raw.place, from.id[g]));
     placed[row(found)] = true;
-    require_same_grain(bed.known, row(found), from, g, moment.place);
-    place(bed, moment, g, row(found), frame);
+    require_same_grain(bed.known, row(found), from, g, raw.place);
+    place(bed, raw, g, row(found), frame);
   }
 }
 
-void add_contact(const ImportedBed& bed, const ArchiveMoment& moment, std::size_t c,
-                 Frame<3>& frame)
+void add_contact(const ImportedBed& bed, const ArchiveFrame& raw, std::size_t c, Frame<3>& frame)
 {
-  const auto& from = moment.contacts;
+  const auto& from = raw.contacts;
   const bool wall = !from.wall.empty() && from.wall[c] >= 0;
-  auto i = row_of(bed, from.i[c], moment, frame);
-  auto j = wall ? i : row_of(bed, from.j[c], moment, frame);
+  auto i = row_of(bed, from.i[c], raw, frame);
+  auto j = wall ? i : row_of(bed, from.j[c], raw, frame);
   if (!wall && i == j)
     throw FormatError(fmt::format("{}: a contact joins grain {} to itself; check --columns",
-                                  moment.place, from.i[c]));
+                                  raw.place, from.i[c]));
   if (bed.is_boundary(i) && (wall || bed.is_boundary(j))) return;
   Vec3 force = bed.components(from.force[c]);
   const bool has_branch = !from.branch.empty() && !std::isnan(from.branch[c].x());
@@ -171,17 +170,17 @@ void add_contact(const ImportedBed& bed, const ArchiveMoment& moment, std::size_
 
 }  // namespace
 
-void ImportedBed::build(const ArchiveMoment& moment, Frame<3>& frame) const
+void ImportedBed::build(const ArchiveFrame& raw, Frame<3>& frame) const
 {
-  frame.step = moment.step ? *moment.step : std::llround(*moment.time / step);
-  frame.time = moment.time.value_or(static_cast<double>(frame.step) * step);
-  require_same_cell(*this, moment);
-  if (box.dimension == 3) require_all_components(moment);
-  place_grains(*this, moment, frame);
+  frame.step = raw.step ? *raw.step : std::llround(*raw.time / step);
+  frame.time = raw.time.value_or(static_cast<double>(frame.step) * step);
+  require_same_cell(*this, raw);
+  if (box.dimension == 3) require_all_components(raw);
+  place_grains(*this, raw, frame);
   frame.contacts.clear();
-  frame.contacts.reserve(moment.contacts.size());
-  for (std::size_t c = 0; c < moment.contacts.size(); ++c) add_contact(*this, moment, c, frame);
-  require_numbers(*this, moment, frame);
+  frame.contacts.reserve(raw.contacts.size());
+  for (std::size_t c = 0; c < raw.contacts.size(); ++c) add_contact(*this, raw, c, frame);
+  require_numbers(*this, raw, frame);
 }
 
 }  // namespace grseg

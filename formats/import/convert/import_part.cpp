@@ -45,12 +45,12 @@ std::vector<Observable> import_observables(bool of_part)
 }
 
 /// The additional values of a part are NaN if there is no residual, or no late damping.
-std::vector<double> import_values(const MomentRecord& record, bool of_part)
+std::vector<double> import_values(const FrameRecord& record, bool of_part)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto& residual = record.residual;
   const bool late = residual && residual->late;
-  auto values = check_values(record.moment);
+  auto values = check_values(record.numbers);
   values.insert(values.begin(), residual ? residual->largest : 0);
   if (of_part)
     values.insert(values.end(),
@@ -64,7 +64,7 @@ Parameters PartPlace::parameters(const ImportReport& report) const
   Parameters all;
   const auto number = [](std::size_t n) { return static_cast<double>(n); };
   all.numbers[place_name] = {number(part.number), number(part.count), number(begin), number(end),
-                             number(moments)};
+                             number(frames)};
   all.texts["import_part_columns"] = report.parameters.text("import_columns");
   all.texts["import_part_remarks"] = fmt::format("{}", fmt::join(report.remarks, "\n"));
   return all;
@@ -93,15 +93,15 @@ ImportPart::ImportPart(const std::string& output, const OutputPart& part)
   }
 }
 
-MomentRecord ImportPart::record(std::size_t frame) const
+FrameRecord ImportPart::record(std::size_t frame) const
 {
   std::vector<double> values;
   for (const auto& of_all : values_) values.push_back(of_all[frame]);
   const std::size_t checks = check_observables().size();
-  MomentRecord record;
-  record.moment.step = run_.steps()[frame];
-  record.moment.time = run_.times()[frame];
-  set_check_values(record.moment,
+  FrameRecord record;
+  record.numbers.step = run_.steps()[frame];
+  record.numbers.time = run_.times()[frame];
+  set_check_values(record.numbers,
                    {values.begin() + 1, values.begin() + 1 + static_cast<std::ptrdiff_t>(checks)});
   const double* more = values.data() + 1 + checks;
   if (std::isnan(more[0])) return record;

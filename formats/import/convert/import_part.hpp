@@ -19,19 +19,19 @@ namespace grseg {
 
 /// Numbers that describe a frame for the checks: the residuals of the grains' force balances (their
 /// late damping in the archive's units), and the sums that the checks accumulate, in SI.
-struct MomentRecord {
+struct FrameRecord {
   std::optional<Residual> residual;
-  CheckMoment moment;
+  CheckFrame numbers;
 };
 
 /// The observables of an imported run, and their values. A part has additional ones at the end.
 std::vector<Observable> import_observables(bool of_part);
-std::vector<double> import_values(const MomentRecord& record, bool of_part);
+std::vector<double> import_values(const FrameRecord& record, bool of_part);
 
 /// Position of a part in its archive.
 struct PartPlace {
   OutputPart part;
-  std::size_t begin = 0, end = 0, moments = 0;  // frames [begin, end) of `moments` in the archive
+  std::size_t begin = 0, end = 0, frames = 0;  // [begin, end) of the archive's `frames`
 
   /// Parameters of the part's file: this position, and the columns and remarks of the report.
   Parameters parameters(const ImportReport& report) const;
@@ -45,7 +45,7 @@ class ImportPart {
 
   const TrajectoryReader& run() const { return run_; }
   const PartPlace& place() const { return place_; }
-  MomentRecord record(std::size_t frame) const;
+  FrameRecord record(std::size_t frame) const;
   /// Fills in the columns and remarks of the report, as they are at the end of this part.
   void add_to(ImportReport& report) const;
   /// Description of the whole run, without the parameters of the part.

@@ -37,7 +37,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr auto largest_id = std::numeric_limits<std::int32_t>::max();  // limit of trajectory files
 
 /// Settings of species, without base grains if the flow has walls and nothing names base grains.
-SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
+SpeciesSettings base_settings(const ArchiveFrame& first, const RunFacts& facts,
                               SpeciesSettings settings)
 {
   const auto& fixed = first.grains.fixed;
@@ -49,7 +49,7 @@ SpeciesSettings base_settings(const ArchiveMoment& first, const RunFacts& facts,
 
 }  // namespace
 
-ImportedBed::ImportedBed(const ArchiveMoment& first, const RunFacts& facts,
+ImportedBed::ImportedBed(const ArchiveFrame& first, const RunFacts& facts,
                          const ImportSettings& settings, bool come_and_go)
     : axes(facts.orientation.axes),
       gravity(facts.orientation.gravity),
@@ -85,7 +85,7 @@ Vec3 ImportedBed::spin(const Vec3& angular_velocity) const
   return {0, 0, axes.spin_in_plane(angular_velocity)};
 }
 
-void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
+void ImportedBed::make_grains(const ArchiveFrame& first, const RunFacts& facts,
                               const SpeciesSettings& settings)
 {
   const auto& from = first.grains;
@@ -129,7 +129,7 @@ void ImportedBed::make_grains(const ArchiveMoment& first, const RunFacts& facts,
   rows = RowsById(std::move(ids));
 }
 
-void ImportedBed::make_box(const ArchiveMoment& first)
+void ImportedBed::make_box(const ArchiveFrame& first)
 {
   double bottom = infinity, top = -infinity;
   for (const auto& position : first.grains.position) {
@@ -151,7 +151,7 @@ void ImportedBed::make_box(const ArchiveMoment& first)
 }
 
 /// Length of the cell along x or z; or of the bed, if the direction is not an axis of the archive.
-double ImportedBed::make_length(const ArchiveMoment& first, int direction)
+double ImportedBed::make_length(const ArchiveFrame& first, int direction)
 {
   const auto axis = axes.axis_of(direction);
   double low = infinity, high = -infinity;
@@ -184,7 +184,7 @@ double ImportedBed::make_length(const ArchiveMoment& first, int direction)
 }
 
 /// Throws UsageError if the cell is periodic in another direction than x and z.
-void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
+void ImportedBed::require_no_other_period(const ArchiveFrame& first) const
 {
   const auto across = axes.axis_of(2), along = axes.axis_of(0), normal = axes.axis_of(1);
   if (normal) require_open_normal(first, *normal);
@@ -199,7 +199,7 @@ void ImportedBed::require_no_other_period(const ArchiveMoment& first) const
 
 /// Sets y = 0 at the highest boundary grain below the mean height of the mobile grains, or at the
 /// highest wall there if there are no boundary grains. A number in `text` is the height itself.
-void ImportedBed::find_origin(const ArchiveMoment& first, const std::string& text)
+void ImportedBed::find_origin(const ArchiveFrame& first, const std::string& text)
 {
   if (parse_finite(text, origin)) return;
   const auto top = find_choice(text, origin_words);

@@ -38,7 +38,7 @@ struct Period {
 struct ImportedBed {
   /// Throws UsageError if the command line contradicts the grains, FormatError if the grains have
   /// impossible values.
-  ImportedBed(const ArchiveMoment& all, const RunFacts& facts, const ImportSettings& settings,
+  ImportedBed(const ArchiveFrame& all, const RunFacts& facts, const ImportSettings& settings,
               bool come_and_go = false);
 
   bool is_boundary(std::size_t row) const { return grains.species[row] == Species::boundary; }
@@ -51,7 +51,7 @@ struct ImportedBed {
   /// are left out; the others stay in their order. Throws FormatError naming the frame if grains or
   /// contacts have impossible values, or lack components in three dimensions. Throws OtherGrains if
   /// the frame has fewer or other grains.
-  void build(const ArchiveMoment& moment, Frame<3>& frame) const;
+  void build(const ArchiveFrame& raw, Frame<3>& frame) const;
 
   Axes axes;
   Vec3 gravity;
@@ -75,12 +75,12 @@ struct ImportedBed {
   std::vector<WallPlane> walls;  // walls given by --wall
 
  private:
-  void make_grains(const ArchiveMoment& first, const RunFacts& facts,
+  void make_grains(const ArchiveFrame& first, const RunFacts& facts,
                    const SpeciesSettings& settings);
-  void require_no_other_period(const ArchiveMoment& first) const;
-  void make_box(const ArchiveMoment& first);
-  double make_length(const ArchiveMoment& first, int direction);
-  void find_origin(const ArchiveMoment& first, const std::string& text);
+  void require_no_other_period(const ArchiveFrame& first) const;
+  void make_box(const ArchiveFrame& first);
+  double make_length(const ArchiveFrame& first, int direction);
+  void find_origin(const ArchiveFrame& first, const std::string& text);
 };
 
 /// Text of the option --origin that sets y = 0 at the lowest point of the grains.

@@ -72,13 +72,13 @@ void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
   const bool has_masses = !mass.empty() && std::all_of(mass.begin(), mass.end(), [](double m) {
     return std::isfinite(m) && m > 0;
   });
-  const auto& moment = frames.scanned().moment;
+  const auto& frame = frames.scanned().frame;
   auto& texts = parameters.texts;
   texts["import_tolerance_reason"] = archive.tolerance_reason;
   texts["import_gravity"] = source(archive.gravity && !settings.gravity);
   texts["import_masses"] = source(archive.density.has_value() || has_masses);
   texts["import_step"] = source(archive.step.has_value());
-  texts["import_times"] = !moment.time ? "steps" : moment.step ? "both" : "times";
+  texts["import_times"] = !frame.time ? "steps" : frame.step ? "both" : "times";
   if (!frames.facts().doubt_of_masses.empty())
     texts["import_masses_doubt"] = frames.facts().doubt_of_masses;
   texts["import_accepted"] = frames.waivers().text();
@@ -173,7 +173,7 @@ Vec3 gravity_in_archive(const RunFacts& facts)
       fit ? fmt::format("; with --columns {} they balance to {:.2g}", fit->columns, fit->residual)
           : std::string();
   const auto others = fitting.empty() && !complaint.spoils_gravity
-                          ? judgement.also_failed(in_si(frames.moment(), frames.facts().units))
+                          ? judgement.also_failed(in_si(frames.numbers(), frames.facts().units))
                           : std::string();
   const bool offer = fitting.empty() && complaint.check == "balance";
   throw CheckError(
@@ -242,18 +242,18 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
   Judgement judgement(run);
   run.observables = import_observables(part.has_value());
   if (part) frames.skip(part->begin);
-  const std::size_t moments = part ? part->end - part->begin : 0;
+  const std::size_t in_part = part ? part->end - part->begin : 0;
   TrajectoryWriter writer(path, run, settings.storage);
-  ProgressBar progress(program, {.things = "frames", .total = static_cast<double>(moments)},
+  ProgressBar progress(program, {.things = "frames", .total = static_cast<double>(in_part)},
                        settings.quiet);
   Frame<3> frame;
   Frame<2> flat;
-  while ((!part || report.frames < moments) && frames.next(frame)) {
+  while ((!part || report.frames < in_part) && frames.next(frame)) {
     stop_if_interrupted();
     if (frames.complaint()) refuse(frames, judgement);
     frames.facts().units.convert(frame);
     count(report, frame.time, frame.contacts.size());
-    const MomentRecord record{frames.residual(), in_si(frames.moment(), frames.facts().units)};
+    const FrameRecord record{frames.residual(), in_si(frames.numbers(), frames.facts().units)};
     const auto values = import_values(record, part.has_value());
     if (!part) judgement.add(record, frames.place());
     if (run.box.dimension == 2) flatten(frame, flat);
@@ -263,7 +263,7 @@ ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
   report.parameters.texts["import_columns"] = frames.archive().columns();
   report.remarks = remarks_of(frames);
   if (part) {
-    if (report.frames != moments || (part->part.number == part->part.count && frames.next(frame)))
+    if (report.frames != in_part || (part->part.number == part->part.count && frames.next(frame)))
       throw RunError(
           fmt::format("{}: the archive has changed during the "
                       "import; import it when it is complete",
@@ -288,9 +288,9 @@ ImportReport import_whole(const ImportSettings& settings, const std::string& com
   };
   ImportReport report;
   try {
-    report = run(Scan::first_moments);
+    report = run(Scan::first_frames);
   } catch (const OtherGrains&) {
-    report = run(Scan::all_moments);
+    report = run(Scan::all_frames);
   }
   output.publish();
   return report;
@@ -306,17 +306,17 @@ ImportReport import_part(const ImportSettings& settings, const std::string& comm
   auto roster = scanned.roster();
   if (!roster) {
     roster = std::make_shared<const Roster>(read_roster(settings));
-    if (roster->grains_change()) scanned = scan(settings, Scan::all_moments);
+    if (roster->grains_change()) scanned = scan(settings, Scan::all_frames);
   }
-  const auto [begin, end] = part.range(roster->moments);
-  const PartPlace place{part, begin, end, roster->moments};
+  const auto [begin, end] = part.range(roster->frames);
+  const PartPlace place{part, begin, end, roster->frames};
   auto report = convert(VerifiedFrames(std::move(scanned), settings), place, settings, command_line,
                         output.temporary());
   output.publish();
   report.remarks = {
       fmt::format("part {}: frames {} to {} of {}; checks of all frames are "
                   "made when parts are joined",
-                  part.text(), begin + 1, end, roster->moments)};
+                  part.text(), begin + 1, end, roster->frames)};
   return report;
 }
 
@@ -328,7 +328,7 @@ void require_next_part(const ImportPart& first, const ImportPart& part, std::siz
   if (ours != command_line)
     part.fail(fmt::format("is a part of another import, by '{}'", printable(ours)));
   if (static_digest(part.description()) != static_digest(first.description()) ||
-      part.place().moments != first.place().moments || part.place().begin != begin)
+      part.place().frames != first.place().frames || part.place().begin != begin)
     part.fail("is a part of another archive");
 }
 
@@ -360,7 +360,7 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
   TrajectoryWriter writer(output.temporary(), run, settings.storage);
   Judgement judgement(run, first.run().path());
   ProgressBar progress(program,
-                       {.things = "frames", .total = static_cast<double>(first.place().moments)},
+                       {.things = "frames", .total = static_cast<double>(first.place().frames)},
                        settings.quiet);
   for (std::size_t k = 1; k <= parts; ++k) {
     const ImportPart part(settings.output, {k, parts});
@@ -369,7 +369,7 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
                    [&](auto d) { append_part<d>(writer, part, judgement, report, progress); });
     part.add_to(report);
   }
-  if (report.frames != first.place().moments) first.fail("is a part of another archive");
+  if (report.frames != first.place().frames) first.fail("is a part of another archive");
   writer.add_parameters(judgement.close(report, settings.strict));
   writer.close();
   output.publish();

@@ -37,10 +37,10 @@ Judgement::Judgement(const RunDescription& run, const std::string& file)
   if (const auto text = failures({sizes}); !text.empty()) throw CheckError(text);
 }
 
-void Judgement::add(const MomentRecord& record, const std::string& place)
+void Judgement::add(const FrameRecord& record, const std::string& place)
 {
   if (record.residual) residuals_.push_back(*record.residual);
-  series_.push_back(record.moment);
+  series_.push_back(record.numbers);
   const auto n = series_.size();
   if ((n & (n - 1)) != 0) return;
   if (const auto text = failures(judge(series_, context_)); !text.empty())
@@ -96,15 +96,15 @@ Parameters Judgement::close(ImportReport& report, bool strict) const
   return last;
 }
 
-std::string Judgement::also_failed(const CheckMoment& moment) const
+std::string Judgement::also_failed(const CheckFrame& frame) const
 {
-  static const std::set<std::string> of_one_moment{"contacts", "completeness", "overlap", "pull",
-                                                   "balance"};
+  static const std::set<std::string> of_one_frame{"contacts", "completeness", "overlap", "pull",
+                                                  "balance"};
   auto series = series_;
-  series.push_back(moment);
+  series.push_back(frame);
   std::string text;
   for (const auto& finding : judge(series, context_))
-    if (finding.verdict == Verdict::failed && !of_one_moment.contains(finding.check))
+    if (finding.verdict == Verdict::failed && !of_one_frame.contains(finding.check))
       text += fmt::format("; {}: {}", finding.check, finding.sentence);
   return text;
 }

@@ -21,13 +21,13 @@ class Judgement {
   explicit Judgement(const RunDescription& run, const std::string& file = "");
 
   /// Adds one frame, in SI. Throws CheckError naming `place` if a check fails.
-  void add(const MomentRecord& record, const std::string& place);
+  void add(const FrameRecord& record, const std::string& place);
   /// Fills in the report's results over all frames, and returns them as parameters. Throws
   /// CheckError if a check fails or, with `strict`, is undecided.
   Parameters close(ImportReport& report, bool strict) const;
-  /// Messages of the checks over all frames that fail once `moment` is included: a possible cause
+  /// Messages of the checks over all frames that fail once `frame` is included: a possible cause
   /// of this frame's error. Example: "; gravity: the archive suggests ...".
-  std::string also_failed(const CheckMoment& moment) const;
+  std::string also_failed(const CheckFrame& frame) const;
 
  private:
   void add_residuals_to(Parameters& parameters) const;

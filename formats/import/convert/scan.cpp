@@ -18,19 +18,19 @@ namespace {
 /// Collects the grains of successive frames in a roster.
 class Collector {
  public:
-  void add(const ArchiveMoment& moment)
+  void add(const ArchiveFrame& frame)
   {
-    const auto& now = moment.grains;
-    if (roster_.moments++ == 0) begin(moment);
+    const auto& now = frame.grains;
+    if (roster_.frames++ == 0) begin(frame);
     auto& all = roster_.all;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (all.periodic[static_cast<std::size_t>(axis)]) continue;
-      all.low[axis] = std::min(all.low[axis], moment.low[axis]);
-      all.high[axis] = std::max(all.high[axis], moment.high[axis]);
+      all.low[axis] = std::min(all.low[axis], frame.low[axis]);
+      all.high[axis] = std::max(all.high[axis], frame.high[axis]);
     }
     roster_.fewest = std::min(roster_.fewest, now.size());
     roster_.most = std::max(roster_.most, now.size());
-    for (std::size_t g = 0; g < now.size(); ++g) add_grain(moment, g);
+    for (std::size_t g = 0; g < now.size(); ++g) add_grain(frame, g);
     all.grains.type_names = now.type_names;
     if (now.size() == 0) return;
     all.grains.missing = now.missing;
@@ -46,7 +46,7 @@ class Collector {
   }
 
  private:
-  void begin(const ArchiveMoment& first)
+  void begin(const ArchiveFrame& first)
   {
     auto& all = roster_.all;
     all = first;
@@ -58,27 +58,27 @@ class Collector {
     roster_.fewest = first.grains.size();
   }
 
-  void add_grain(const ArchiveMoment& moment, std::size_t g)
+  void add_grain(const ArchiveFrame& frame, std::size_t g)
   {
-    const auto& now = moment.grains;
+    const auto& now = frame.grains;
     auto& all = roster_.all.grains;
     const auto [place, is_new] = row_.try_emplace(now.id[g], all.size());
     const std::size_t row = place->second;
-    if (is_new) add_new(moment, g);
+    if (is_new) add_new(frame, g);
     auto& seen = seen_[row];
-    if (seen.last == roster_.moments)
-      throw FormatError(fmt::format("{}: grain {} appears twice", moment.place, now.id[g]));
-    seen.last = roster_.moments;
+    if (seen.last == roster_.frames)
+      throw FormatError(fmt::format("{}: grain {} appears twice", frame.place, now.id[g]));
+    seen.last = roster_.frames;
     ++seen.times;
-    if (!is_new) require_same_grain(all, row, now, g, moment.place);
+    if (!is_new) require_same_grain(all, row, now, g, frame.place);
     all.position[row] += now.position[g];
     if (!now.velocity.empty() && now.velocity[g].norm() > all.velocity[row].norm())
       all.velocity[row] = now.velocity[g];
   }
 
-  void add_new(const ArchiveMoment& moment, std::size_t g)
+  void add_new(const ArchiveFrame& frame, std::size_t g)
   {
-    const auto& now = moment.grains;
+    const auto& now = frame.grains;
     auto& all = roster_.all.grains;
     all.id.push_back(now.id[g]);
     all.position.emplace_back(Vec3::Zero());
@@ -89,7 +89,7 @@ class Collector {
         throw FormatError(fmt::format(
             "{}: some frames have {} of grains and some do not; import them separately, with "
             "--begin and --end",
-            moment.place, what));
+            frame.place, what));
     };
     copy(now.type, all.type, "types");
     copy(now.radius, all.radius, "radii");
@@ -123,11 +123,11 @@ bool grains_change_early(const ImportSettings& settings)
 {
   constexpr int early = 20;
   try {
-    Moments moments(settings);
-    ArchiveMoment first, moment;
-    if (!moments.next_grains(first)) return false;
-    for (int k = 1; k < early && moments.next_grains(moment); ++k)
-      if (!same_ids(first.grains, moment.grains)) return true;
+    ArchiveFrames frames(settings);
+    ArchiveFrame first, frame;
+    if (!frames.next_grains(first)) return false;
+    for (int k = 1; k < early && frames.next_grains(frame); ++k)
+      if (!same_ids(first.grains, frame.grains)) return true;
   } catch (const ToolError&) {  // the import reports the error when it reads that frame
   }
   return false;
@@ -145,11 +145,11 @@ bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 
 Roster read_roster(const ImportSettings& settings)
 {
-  Moments moments(settings);
+  ArchiveFrames frames(settings);
   Collector collector;
-  for (ArchiveMoment moment; moments.next_grains(moment);) {
+  for (ArchiveFrame frame; frames.next_grains(frame);) {
     stop_if_interrupted();
-    collector.add(moment);
+    collector.add(frame);
   }
   return collector.finish();
 }
@@ -185,15 +185,15 @@ void require_same_grain(const ArchiveGrains& known, std::size_t row, const Archi
 
 ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<const Roster> roster,
                                Questions questions)
-    : moments_(settings), roster_(std::move(roster))
+    : frames_(settings), roster_(std::move(roster))
 {
-  if (!moments_.next(moment))
+  if (!frames_.next(frame))
     throw FormatError(fmt::format(
         "{}: the archive has no frame with grains and contacts; is it complete?",
         settings.files.grains.empty() ? settings.files.restart : settings.files.grains.front()));
-  if (!roster_ && moment.grains.size() == 0)
-    throw OtherGrains(fmt::format("{}: there are no grains", moment.place));
-  const auto full = roster_ ? full_moment(settings) : moment;
+  if (!roster_ && frame.grains.size() == 0)
+    throw OtherGrains(fmt::format("{}: there are no grains", frame.place));
+  const auto full = roster_ ? full_frame(settings) : frame;
   for (const auto& question : full.questions) questions.ask(question);
   const auto resting = resting_grains_of(settings);
   facts = collect_facts(archive().facts(), {all_grains(), full, resting}, settings, questions);
@@ -204,7 +204,7 @@ ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<c
 std::vector<std::string> ScannedArchive::remarks() const
 {
   auto remarks = archive().remarks();
-  for (auto& of_moments : moments_.remarks()) remarks.push_back(std::move(of_moments));
+  for (auto& of_frames : frames_.remarks()) remarks.push_back(std::move(of_frames));
   if (roster_)
     remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} in a frame",
                                   roster_->all.grains.size(), roster_->fewest, roster_->most));
@@ -213,8 +213,8 @@ std::vector<std::string> ScannedArchive::remarks() const
 
 bool ScannedArchive::next()
 {
-  if (!moments_.next(moment)) return false;
-  if (!moment.questions.empty()) throw OpenQuestions(moment.questions);
+  if (!frames_.next(frame)) return false;
+  if (!frame.questions.empty()) throw OpenQuestions(frame.questions);
   return true;
 }
 
@@ -224,19 +224,19 @@ std::vector<bool> ScannedArchive::resting_grains_of(const ImportSettings& settin
 {
   if (!base_is_open(all_grains().grains, settings)) return {};
   if (roster_) return resting_grains(roster_->all.grains, nullptr);
-  Moments ahead(settings);
-  ArchiveMoment later;
+  ArchiveFrames ahead(settings);
+  ArchiveFrame later;
   const bool more = ahead.next_grains(later) && ahead.next_grains(later);
-  return resting_grains(moment.grains, more ? &later.grains : nullptr);
+  return resting_grains(frame.grains, more ? &later.grains : nullptr);
 }
 
 /// The first of at most 100 frames that has half of the roster's most grains; if none has, the one
 /// with most grains. It carries the questions of the first frame that has any.
-ArchiveMoment ScannedArchive::full_moment(const ImportSettings& settings) const
+ArchiveFrame ScannedArchive::full_frame(const ImportSettings& settings) const
 {
   constexpr int furthest = 100;
-  Moments ahead(settings);
-  ArchiveMoment full, next;
+  ArchiveFrames ahead(settings);
+  ArchiveFrame full, next;
   std::vector<Question> questions;
   for (int k = 0; k < furthest && 2 * full.grains.size() < roster_->most && ahead.next(next); ++k) {
     if (questions.empty()) questions = next.questions;
@@ -316,7 +316,7 @@ ScannedArchive scan(const ImportSettings& settings, Scan how_far)
 {
   Questions questions;
   const auto proposed = with_proposed_files(settings, questions);
-  if (how_far == Scan::first_moments) try {
+  if (how_far == Scan::first_frames) try {
       return ScannedArchive(proposed, nullptr, questions);
     } catch (const OtherGrains&) {
     } catch (const UsageError&) {

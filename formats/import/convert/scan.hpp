@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/import/common/archive.hpp"
-#include "formats/import/convert/moments.hpp"
+#include "formats/import/convert/archive_frames.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "formats/import/facts/run_facts.hpp"
 
@@ -27,9 +27,9 @@ struct Roster {
   /// mass and fixed flag, its mean position and its velocity of largest magnitude; no contacts.
   /// Along open directions the cell encloses all grains of all frames. Facts that are otherwise
   /// found from the first frame are found from this one.
-  ArchiveMoment all;
+  ArchiveFrame all;
   std::size_t fewest = 0, most = 0;  // smallest and largest number of grains in a frame
-  std::size_t moments = 0;
+  std::size_t frames = 0;
 
   bool grains_change() const { return fewest < all.grains.size(); }
 };
@@ -45,7 +45,7 @@ struct OtherGrains : FormatError {
   using FormatError::FormatError;
 };
 
-/// An open archive with the facts of its run. `moment` is the current frame, the first one after
+/// An open archive with the facts of its run. `frame` is the current one, the first one after
 /// construction. If grains enter and leave, a roster lists them.
 class ScannedArchive {
  public:
@@ -58,38 +58,38 @@ class ScannedArchive {
   /// Reads the next frame; false at the end. Throws OpenQuestions if the reader needs an answer.
   bool next();
   /// Reads the next frame without its contacts; false at the end.
-  bool next_grains() { return moments_.next_grains(moment); }
-  const Archive& archive() const { return moments_.archive(); }
+  bool next_grains() { return frames_.next_grains(frame); }
+  const Archive& archive() const { return frames_.archive(); }
   /// Sentences about the data left out so far.
   std::vector<std::string> remarks() const;
   /// The grains of all frames; null if all frames have the grains of the first one.
   const std::shared_ptr<const Roster>& roster() const { return roster_; }
   /// A frame with all grains of the run: Roster::all, or without a roster the current frame.
-  const ArchiveMoment& all_grains() const { return roster_ ? roster_->all : moment; }
+  const ArchiveFrame& all_grains() const { return roster_ ? roster_->all : frame; }
 
-  ArchiveMoment moment;
+  ArchiveFrame frame;
   RunFacts facts;
 
  private:
   std::vector<bool> resting_grains_of(const ImportSettings& settings) const;
-  ArchiveMoment full_moment(const ImportSettings& settings) const;
+  ArchiveFrame full_frame(const ImportSettings& settings) const;
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;
   void ask_for_the_cell(const ImportSettings& settings, Questions& questions) const;
   Question question_of_cell(const ImportSettings& settings, int axis) const;
 
-  Moments moments_;
+  ArchiveFrames frames_;
   std::shared_ptr<const Roster> roster_;
 };
 
 /// Number of frames that a scan reads. Reading all of them takes half as long as an import.
-enum class Scan { first_moments, all_moments };
+enum class Scan { first_frames, all_frames };
 
 /// Opens an archive and finds the facts of its run; the command line may name its files only. All
 /// frames are scanned if the grains of the first one do not suffice and other frames have other
 /// grains. Throws FormatError naming frame and grain if an id occurs twice in a frame, or if a
 /// property of a grain changes (require_same_grain()).
-ScannedArchive scan(const ImportSettings& settings, Scan how_far = Scan::first_moments);
+ScannedArchive scan(const ImportSettings& settings, Scan how_far = Scan::first_frames);
 
 /// The grains of all frames in the range of the import.
 Roster read_roster(const ImportSettings& settings);

@@ -32,11 +32,11 @@ VerifiedFrames::VerifiedFrames(ScannedArchive scanned, const ImportSettings& set
   verification_.leave_out(walls_->inferred());
 }
 
-void VerifiedFrames::skip(std::size_t moments)
+void VerifiedFrames::skip(std::size_t frames)
 {
-  if (moments == 0) return;
-  for (std::size_t k = 2; k < moments; ++k) scanned_.next_grains();
-  if (moments > 1) scanned_.next();
+  if (frames == 0) return;
+  for (std::size_t k = 2; k < frames; ++k) scanned_.next_grains();
+  if (frames > 1) scanned_.next();
   Frame<3> before;
   next(before);
 }
@@ -44,20 +44,20 @@ void VerifiedFrames::skip(std::size_t moments)
 bool VerifiedFrames::next(Frame<3>& frame)
 {
   if (!std::exchange(first_, false) && !scanned_.next()) return false;
-  const auto& moment = scanned_.moment;
-  if (moment.grains.size() > 0 && moment.grains.force.empty() == bed_.has_force)
+  const auto& raw = scanned_.frame;
+  if (raw.grains.size() > 0 && raw.grains.force.empty() == bed_.has_force)
     throw FormatError(
         fmt::format("{}: some frames have forces on grains and some do not; import them separately",
-                    moment.place));
-  bed_.build(moment, frame);
+                    raw.place));
+  bed_.build(raw, frame);
   if (walls_) walls_->add_to(frame);
   if (last_ && (frame.step <= last_->first || frame.time <= last_->second))
     throw FormatError(
         fmt::format("{}: step {} at {:.10g} comes after step {} at {:.10g}: time must increase by "
                     "at least one step; is --step too long?",
-                    moment.place, frame.step, frame.time, last_->first, last_->second));
+                    raw.place, frame.step, frame.time, last_->first, last_->second));
   last_ = {frame.step, frame.time};
-  complaint_ = verification_.check(frame, !moment.grains.image.empty());
+  complaint_ = verification_.check(frame, !raw.grains.image.empty());
   return true;
 }
 

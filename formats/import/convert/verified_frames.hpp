@@ -23,14 +23,14 @@ class VerifiedFrames {
 
   /// Skips this number of frames; to be called before the first `next`. Reads their grains only,
   /// except for the last one, because the check of the next frame's velocities needs it.
-  void skip(std::size_t moments);
+  void skip(std::size_t frames);
   /// Reads the next frame; false at the end. complaint() then describes the frame's error, if any.
   bool next(Frame<3>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_.residual(); }
   /// Quantities that the checks compute from the last frame, in the archive's units.
-  const CheckMoment& moment() const { return verification_.moment(); }
-  const std::string& place() const { return scanned_.moment.place; }
+  const CheckFrame& numbers() const { return verification_.numbers(); }
+  const std::string& place() const { return scanned_.frame.place; }
 
   const ScannedArchive& scanned() const { return scanned_; }
   const Archive& archive() const { return scanned_.archive(); }

@@ -219,31 +219,31 @@ class CsvArchive : public Archive {
 
   const ArchiveFacts& facts() const override { return facts_; }
 
-  bool next(ArchiveMoment& moment) override
+  bool next(ArchiveFrame& frame) override
   {
     if (!next_of_both()) return false;
-    moment = ArchiveMoment{};
-    const auto [value, is_step] = grains_.moment();
+    frame = ArchiveFrame{};
+    const auto [value, is_step] = grains_.time();
     if (!is_step)
-      moment.time = value;
+      frame.time = value;
     else if (is_whole(value))
-      moment.step = static_cast<std::int64_t>(value);
+      frame.step = static_cast<std::int64_t>(value);
     else
       grains_.fail(fmt::format("{:g} is not a step", value));
-    moment.place = fmt::format("{} = {:g} ({}; {})", is_step ? "step" : "t", value, grains_.begin(),
-                               contacts_.begin());
-    moment.periodic = comments_.periodic;
-    moment.low = comments_.low;
-    moment.high = comments_.high;
-    fill(moment.grains);
-    enclose_grains(moment);
-    fill(moment.contacts);
+    frame.place = fmt::format("{} = {:g} ({}; {})", is_step ? "step" : "t", value, grains_.begin(),
+                              contacts_.begin());
+    frame.periodic = comments_.periodic;
+    frame.low = comments_.low;
+    frame.high = comments_.high;
+    fill(frame.grains);
+    enclose_grains(frame);
+    fill(frame.contacts);
     return true;
   }
 
   std::vector<std::string> remarks() const override
   {
-    return matching_.remarks(grains_.moment().is_step ? "step" : "t =");
+    return matching_.remarks(grains_.time().is_step ? "step" : "t =");
   }
 
  private:
@@ -253,12 +253,12 @@ class CsvArchive : public Archive {
     const auto table = [](CsvTable& of) {
       return Matching::Table{[&of] { return of.next(); },
                              [&of] {
-                               const auto [value, is_step] = of.moment();
+                               const auto [value, is_step] = of.time();
                                return fmt::format("{:.{}g}", value, is_step ? 17 : 10);
                              }};
     };
     const auto order = [this] {
-      const auto grains = grains_.moment(), contacts = contacts_.moment();
+      const auto grains = grains_.time(), contacts = contacts_.time();
       if (grains.is_step != contacts.is_step)
         contacts_.fail(fmt::format(
             "the table of contacts has {}, but the table of grains has {}: write the same in both, "

@@ -18,7 +18,7 @@ constexpr std::string_view digits = "0123456789";
 
 /// The text of `path` that matches the `*` of a pattern; if no pattern matches, the file's name
 /// without its endings.
-std::string moment_in(const std::string& path, const std::vector<std::string>& patterns)
+std::string time_in(const std::string& path, const std::vector<std::string>& patterns)
 {
   for (const auto& pattern : patterns) {
     const auto star = pattern.rfind('*');
@@ -34,17 +34,16 @@ std::string moment_in(const std::string& path, const std::vector<std::string>& p
   return name;
 }
 
-std::optional<CsvMoment> read_moment(const std::string& text)
+std::optional<CsvTime> read_time(const std::string& text)
 {
   double time = 0;
-  if (parse_finite(text, time) && text.find('.') != std::string::npos)
-    return CsvMoment{time, false};
+  if (parse_finite(text, time) && text.find('.') != std::string::npos) return CsvTime{time, false};
   const auto last = text.find_last_of(digits);
   if (last == std::string::npos) return std::nullopt;
   const auto first = text.find_last_not_of(digits, last) + 1;  // 0 if no text precedes the digits
   std::int64_t step = 0;
   if (!parse_whole(text.substr(first, last + 1 - first), step)) return std::nullopt;
-  return CsvMoment{static_cast<double>(step), true};
+  return CsvTime{static_cast<double>(step), true};
 }
 
 constexpr std::string_view blanks = " \t";
@@ -95,7 +94,7 @@ std::vector<CsvFile> csv_files(const std::vector<std::string>& names, const std:
 {
   std::vector<CsvFile> files;
   for (const auto& path : archive_files(names, option))
-    files.push_back({path, read_moment(moment_in(path, names))});
+    files.push_back({path, read_time(time_in(path, names))});
   return files;
 }
 
@@ -191,7 +190,7 @@ void CsvTable::read_names()
   }
   numbers_ = CsvNumbers(separator_);
   name_columns();
-  require_a_moment();
+  require_a_time();
 }
 
 /// True if the line, expected to have column names, has numbers in more than half of its fields.
@@ -270,9 +269,9 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
   }
 }
 
-void CsvTable::require_a_moment() const
+void CsvTable::require_a_time() const
 {
-  if (!has(0) && !has(1) && !files_[opened_ - 1].moment)
+  if (!has(0) && !has(1) && !files_[opened_ - 1].time)
     fail(
         fmt::format("no column time or step among {}, and none in the name of the "
                     "file; name the column with --map NAME=time",
@@ -362,11 +361,11 @@ void CsvTable::wait_for_next_row()
   if (waiting_) waiting_place_ = source_->place();
 }
 
-CsvMoment CsvTable::moment_of_row() const
+CsvTime CsvTable::time_of_row() const
 {
   if (has(0)) return {row_[0], false};
   if (has(1)) return {row_[1], true};
-  return *files_[opened_ - 1].moment;
+  return *files_[opened_ - 1].time;
 }
 
 bool CsvTable::next()
@@ -374,11 +373,10 @@ bool CsvTable::next()
   if (!std::exchange(started_, true)) wait_for_next_row();
   if (!waiting_) return false;
   begin_ = waiting_place_;
-  moment_ = moment_of_row();
+  time_ = time_of_row();
   values_ = row_;
   rows_ = 1;
-  for (wait_for_next_row(); waiting_ && moment_of_row().value == moment_.value;
-       wait_for_next_row()) {
+  for (wait_for_next_row(); waiting_ && time_of_row().value == time_.value; wait_for_next_row()) {
     values_.insert(values_.end(), row_.begin(), row_.end());
     ++rows_;
   }
@@ -386,9 +384,9 @@ bool CsvTable::next()
     values_[row * columns_.size() + row_column_] =
         static_cast<double>(row) + static_cast<double>(*first_row_);
   if (!waiting_) return true;
-  if (const auto later = moment_of_row(); later.value < moment_.value)
+  if (const auto later = time_of_row(); later.value < time_.value)
     fail(fmt::format("{0} {1:g} comes after {0} {2:g}: rows must be in order of time",
-                     later.is_step ? "step" : "time", later.value, moment_.value));
+                     later.is_step ? "step" : "time", later.value, time_.value));
   return true;
 }
 

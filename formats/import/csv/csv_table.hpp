@@ -15,7 +15,7 @@
 namespace grseg {
 
 /// The time of a frame's rows, or their step if the table has no times.
-struct CsvMoment {
+struct CsvTime {
   double value = 0;
   bool is_step = false;
 };
@@ -24,7 +24,7 @@ struct CsvMoment {
 /// is a number with a decimal point; otherwise its last digits are a step.
 struct CsvFile {
   std::string path;
-  std::optional<CsvMoment> moment;
+  std::optional<CsvTime> time;
 };
 
 /// The files that match `names` (archive_files.hpp), in natural order. In names without `*` (a
@@ -94,9 +94,9 @@ class CsvTable {
   /// Reads the rows of the next frame; false at the end. Throws FormatError naming the line if a
   /// row is damaged, or has an earlier time than the row above.
   bool next();
-  CsvMoment moment() const { return moment_; }
+  CsvTime time() const { return time_; }
   /// Time (or steps) from this frame to the next; 0 at the end.
-  double interval() const { return waiting_ ? moment_of_row().value - moment_.value : 0; }
+  double interval() const { return waiting_ ? time_of_row().value - time_.value : 0; }
   std::size_t rows() const { return rows_; }
   /// Number in a row of this frame; 0 if the table does not have the column.
   double value(std::size_t row, std::size_t column) const
@@ -115,13 +115,13 @@ class CsvTable {
   bool take_names_of_comment();
   void read_names();
   void find_columns(const std::vector<std::string>& names);
-  void require_a_moment() const;
+  void require_a_time() const;
   bool go_to_row();
   bool next_row();
   void read_fields();
   void read_word(std::size_t column, std::string_view field);
   void wait_for_next_row();
-  CsvMoment moment_of_row() const;
+  CsvTime time_of_row() const;
 
   std::vector<CsvFile> files_;
   std::size_t opened_ = 0;
@@ -144,7 +144,7 @@ class CsvTable {
   bool waiting_ = false;       // true: row_ is the first row of the next frame
   bool ends_in_rows_ = false;  // true: an earlier file has no line end behind its last row
   std::string begin_, waiting_place_;
-  CsvMoment moment_;
+  CsvTime time_;
   std::size_t rows_ = 0;
 };
 

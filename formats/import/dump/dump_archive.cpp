@@ -178,45 +178,45 @@ class DumpArchive : public Archive {
     return std::nullopt;
   }
 
-  bool next(ArchiveMoment& moment) override
+  bool next(ArchiveFrame& frame) override
   {
-    if (!next_grains(moment)) return false;
+    if (!next_grains(frame)) return false;
     try {
-      read_contacts(moment);
+      read_contacts(frame);
     } catch (const TruncatedArchive&) {
       dumps_.keep_grains();
       throw;
     }
-    if (dumps_.walls() && moment.grains.size() > 0) {
+    if (dumps_.walls() && frame.grains.size() > 0) {
       auto& walls = *dumps_.walls();
       if (!wall_rows_) wall_rows_.emplace(dialect_.wall_mapping(wall_text_, walls.header()));
-      wall_rows_->read(walls, moment);
+      wall_rows_->read(walls, frame);
     }
-    wall_columns_.add_to(moment, grains_);
+    wall_columns_.add_to(frame, grains_);
     return true;
   }
 
-  bool next_grains(ArchiveMoment& moment) override
+  bool next_grains(ArchiveFrame& frame) override
   {
     if (!dumps_.next()) return false;
     facts_.units = dumps_.units();
     const auto& header = dumps_.grains().header();
-    moment.step = header.step;
-    moment.time = header.time;
-    moment.low = header.low;
-    moment.high = header.high;
-    moment.periodic = header.periodic;
+    frame.step = header.step;
+    frame.time = header.time;
+    frame.low = header.low;
+    frame.high = header.high;
+    frame.periodic = header.periodic;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      moment.cell[axis] = header.shrinks[axis] ? CellSource::grains : CellSource::archive;
-    moment.questions.clear();
-    moment.place = fmt::format("step {} ({}; {})", header.step, header.place,
-                               dumps_.contacts().header().place);
+      frame.cell[axis] = header.shrinks[axis] ? CellSource::grains : CellSource::archive;
+    frame.questions.clear();
+    frame.place = fmt::format("step {} ({}; {})", header.step, header.place,
+                              dumps_.contacts().header().place);
     wall_columns_.look_up(header);
     facts_.walls = wall_columns_.walls();
     if (dumps_.walls()) facts_.walls = {"of the rows of --wall-contacts"};
     try {
       if (dumps_.grains_are_new())
-        grains_.read(dumps_.grains(), moment.grains, wall_columns_.wanted());
+        grains_.read(dumps_.grains(), frame.grains, wall_columns_.wanted());
     } catch (const TruncatedArchive&) {
       dumps_.keep_contacts();
       throw;
@@ -225,11 +225,11 @@ class DumpArchive : public Archive {
   }
 
  private:
-  void read_contacts(ArchiveMoment& moment)
+  void read_contacts(ArchiveFrame& frame)
   {
     const auto header = dumps_.contacts().header();
-    if (!columns_ && moment.grains.size() == 0) {
-      moment.contacts = {};
+    if (!columns_ && frame.grains.size() == 0) {
+      frame.contacts = {};
       return;
     }
     if (header.label == "ATOMS" && header.find("id"))
@@ -238,11 +238,11 @@ class DumpArchive : public Archive {
           "dump local with --contacts",
           header.place));
     if (!columns_ || header.columns != header_.columns) {
-      grains_have_forces_ = !moment.grains.force.empty();
-      if (columns_text_.empty()) find_columns(header, moment);
+      grains_have_forces_ = !frame.grains.force.empty();
+      if (columns_text_.empty()) find_columns(header, frame);
       if (columns_text_.empty()) {
         dumps_.contacts().read_rows({}, values_);  // reports a header that does not match its rows
-        moment.contacts = {};
+        frame.contacts = {};
         return;
       }
       columns_.emplace(dialect_.mapping(columns_text_, header));
@@ -250,14 +250,14 @@ class DumpArchive : public Archive {
       header_ = header;
     }
     dumps_.contacts().read_rows(columns_->wanted(), values_);
-    columns_->fill(values_, header.place, moment.contacts);
+    columns_->fill(values_, header.place, frame.contacts);
   }
 
   /// Finds the columns from the balance of forces if names and number of columns leave them open,
   /// or are contradicted by the balance. The result becomes a question for the user.
-  void find_columns(const DumpHeader& header, ArchiveMoment& moment)
+  void find_columns(const DumpHeader& header, ArchiveFrame& frame)
   {
-    columns_text_ = dialect_.assumed(header, moment.grains);
+    columns_text_ = dialect_.assumed(header, frame.grains);
     const auto fit = fitting_columns(std::nullopt);
     if (!fit && !columns_text_.empty()) return;
     const auto others = dialect_.others(header);
@@ -270,7 +270,7 @@ class DumpArchive : public Archive {
                   "with these the forces on grains balance to within {:.2g} of a contact force",
                   fit->residual)
             : fmt::format("as in {}", dialect_.example);
-    moment.questions.push_back(
+    frame.questions.push_back(
         {fmt::format("the meaning of the {} columns of {}", header.columns.size(), header.place),
          "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
          fmt::format("they are {}; {}", fmt::join(header.columns, " "), why)});

@@ -90,24 +90,24 @@ void WallColumns::look_up(const DumpHeader& grains)
   }
 }
 
-void WallColumns::add_to(ArchiveMoment& moment, const DumpGrains& columns) const
+void WallColumns::add_to(ArchiveFrame& frame, const DumpGrains& columns) const
 {
-  const auto& grains = moment.grains;
+  const auto& grains = frame.grains;
   for (std::size_t wall = 0; wall < walls_.size(); ++wall)
     for (std::size_t g = 0; g < grains.size(); ++g) {
       std::array<double, 8> v;
       for (std::size_t k = 0; k < 8; ++k) v[k] = columns.more(8 * wall + k)[g];
       if (v[0] == 0) continue;
       const Vec3 force{v[1], v[2], v[3]}, point{v[4], v[5], v[6]};
-      const Vec3 branch = moment.minimum_image(grains.position[g] - point);
+      const Vec3 branch = frame.minimum_image(grains.position[g] - point);
       const double radius = grains.radius.empty() ? v[7] : grains.radius[g];
       if (v[0] != 1 || std::abs(v[7] - radius) > 1e-4 * radius || branch.norm() > 2 * radius)
         throw FormatError(fmt::format(
             "{}: the eight columns of wall {} are {:g} for grain {}, which are not flag, force, "
             "contact point and radius of `fix wall/gran ... contacts`; pass --wall-columns none if "
             "these columns have another meaning",
-            moment.place, walls_[wall], fmt::join(v, " "), grains.id[g]));
-      append(moment.contacts, grains.id[g], static_cast<std::int32_t>(wall), force, branch);
+            frame.place, walls_[wall], fmt::join(v, " "), grains.id[g]));
+      append(frame.contacts, grains.id[g], static_cast<std::int32_t>(wall), force, branch);
     }
 }
 
@@ -119,7 +119,7 @@ WallRows::WallRows(const std::string& mapping) : map_(row_words(), mapping)
         row_words().example));
 }
 
-void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
+void WallRows::read(JoinedDumps& dump, ArchiveFrame& frame)
 {
   const auto header = dump.header();
   map_.look_up(header.columns, header.place);
@@ -133,7 +133,7 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
       if (!of(first + k).empty()) values[static_cast<Eigen::Index>(k)] = of(first + k)[row];
     return values;
   };
-  const auto place = rows_by_id(moment.grains);
+  const auto place = rows_by_id(frame.grains);
   std::unordered_map<std::int64_t, std::int32_t> rows_of;
   for (std::size_t row = 0; row < header.rows; ++row) {
     const auto grain = is_whole(of(id)[row]) ? static_cast<std::int64_t>(of(id)[row]) : -1;
@@ -143,7 +143,7 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
           "{}: {:g} in the column of id is not among the grains of step {}; set the meaning of the "
           "columns with --wall-columns",
           header.place, of(id)[row], header.step));
-    const Vec3 centre = of(x).empty() ? moment.grains.position[found->second] : triple(x, row);
+    const Vec3 centre = of(x).empty() ? frame.grains.position[found->second] : triple(x, row);
     std::int32_t wall = rows_of[grain]++;
     if (!of(triangle).empty()) {
       const double number = (of(mesh).empty() ? 0 : of(mesh)[row]) * 1e6 + of(triangle)[row];
@@ -154,8 +154,8 @@ void WallRows::read(JoinedDumps& dump, ArchiveMoment& moment)
                         header.place, number));
       wall = static_cast<std::int32_t>(number);
     }
-    append(moment.contacts, grain, wall, triple(fx, row),
-           moment.minimum_image(centre - triple(px, row)));
+    append(frame.contacts, grain, wall, triple(fx, row),
+           frame.minimum_image(centre - triple(px, row)));
   }
 }
 

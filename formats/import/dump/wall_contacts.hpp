@@ -27,7 +27,7 @@ class WallColumns {
   const std::vector<std::string>& walls() const { return walls_; }
   /// Adds the contacts, from the columns that `grains` has read as `more`. Throws FormatError if
   /// they do not contain flag, force, contact point and radius.
-  void add_to(ArchiveMoment& moment, const DumpGrains& grains) const;
+  void add_to(ArchiveFrame& frame, const DumpGrains& grains) const;
 
  private:
   std::string text_;
@@ -48,7 +48,7 @@ class WallRows {
   explicit WallRows(const std::string& mapping);
 
   /// Adds the rows of the current block of `dump` to the contacts.
-  void read(JoinedDumps& dump, ArchiveMoment& moment);
+  void read(JoinedDumps& dump, ArchiveFrame& frame);
 
  private:
   ColumnMap map_;

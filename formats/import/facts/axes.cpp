@@ -114,14 +114,14 @@ void require_towards_the_base(const Vec3& gravity, const Orientation& orientatio
       gravity.x(), gravity.y(), gravity.z(), letters));
 }
 
-void require_open_normal(const ArchiveMoment& moment, int normal)
+void require_open_normal(const ArchiveFrame& frame, int normal)
 {
-  if (!moment.periodic[static_cast<std::size_t>(normal)]) return;
+  if (!frame.periodic[static_cast<std::size_t>(normal)]) return;
   throw UsageError(fmt::format(
       "{}: the cell is periodic along {}, the normal of the base, but a bed ends at the base "
       "and at the surface; name the axes with --axes (along the base, away from it), or write "
       "the archive with an open boundary there",
-      moment.place, "xyz"[normal]));
+      frame.place, "xyz"[normal]));
 }
 
 GravityText parse_gravity(const std::string& text)
@@ -165,7 +165,7 @@ std::string plane_of(const ArchiveGrains& grains)
   return extent.x() <= thickness ? "yz" : "";
 }
 
-int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs,
+int dimension_of(const ArchiveFrame& first, const std::string& axes, bool discs,
                  std::optional<int> asked)
 {
   if (asked && *asked != 2 && *asked != 3)

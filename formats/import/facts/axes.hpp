@@ -40,8 +40,8 @@ class Axes {
   std::array<Vec3, 3> direction_;
 };
 
-/// Throws UsageError if the cell of `moment` is periodic along `normal`, an axis of the archive.
-void require_open_normal(const ArchiveMoment& moment, int normal);
+/// Throws UsageError if the cell of `frame` is periodic along `normal`, an axis of the archive.
+void require_open_normal(const ArchiveFrame& frame, int normal);
 
 /// Gravity, a magnitude ("9.8") or a vector ("3.8,-9.0,0"). Other text: UsageError.
 struct GravityText {
@@ -72,7 +72,7 @@ void require_towards_the_base(const Vec3& gravity, const Orientation& orientatio
 /// `asked` is the value of --dimension; 3 treats spheres in a plane as a flow in space. Throws
 /// UsageError if `asked` contradicts the grains, if discs do not lie in the plane, or if spheres
 /// lie in another plane of the archive's axes, which may be the intended one.
-int dimension_of(const ArchiveMoment& first, const std::string& axes, bool discs,
+int dimension_of(const ArchiveFrame& first, const std::string& axes, bool discs,
                  std::optional<int> asked);
 
 /// The plane of two of the archive's axes in which all grains lie, to a tenth of the largest

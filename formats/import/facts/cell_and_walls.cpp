@@ -72,20 +72,20 @@ std::vector<ToldCell> parse_cells(const std::vector<std::string>& texts)
   return cells;
 }
 
-void tell(const ToldCell& cell, ArchiveMoment& moment)
+void tell(const ToldCell& cell, ArchiveFrame& frame)
 {
   const auto axis = static_cast<std::size_t>(cell.axis);
-  const double low = moment.low[cell.axis], high = moment.high[cell.axis];
+  const double low = frame.low[cell.axis], high = frame.high[cell.axis];
   const double digits = 1e-6 * (high - low);
   const bool differs =
       !cell.periodic || std::abs(cell.low - low) > digits || std::abs(cell.high - high) > digits;
-  if (moment.periodic[axis] && differs)
+  if (frame.periodic[axis] && differs)
     throw UsageError(fmt::format("--cell {}, but the archive states {}: leave the option out",
                                  cell.text(), ToldCell{cell.axis, low, high, true}.text()));
-  moment.low[cell.axis] = cell.low;
-  moment.high[cell.axis] = cell.high;
-  moment.periodic[axis] = cell.periodic;
-  moment.cell[axis] = CellSource::told;
+  frame.low[cell.axis] = cell.low;
+  frame.high[cell.axis] = cell.high;
+  frame.periodic[axis] = cell.periodic;
+  frame.cell[axis] = CellSource::told;
 }
 
 std::string WallPlane::place() const

@@ -24,7 +24,7 @@ struct ToldCell {
 std::vector<ToldCell> parse_cells(const std::vector<std::string>& texts);
 
 /// Sets the cell of a frame. Throws UsageError if the archive states another periodic cell.
-void tell(const ToldCell& cell, ArchiveMoment& moment);
+void tell(const ToldCell& cell, ArchiveFrame& frame);
 
 /// A plane wall normal to one of the archive's axes, in the archive's units: --wall floor=z:0.
 struct WallPlane {

@@ -48,8 +48,8 @@ struct ImportSettings {
   std::vector<std::string> walls;  // plane walls, NAME=AXIS:POSITION: cell_and_walls.hpp
   std::vector<std::string> cells;  // bounds of the cell, AXIS:LOW:HIGH: cell_and_walls.hpp
 
-  std::optional<std::string> begin, end;     // first and last time or step: moments.hpp
-  std::optional<std::string> repeated;       // "first", "last": moments.hpp
+  std::optional<std::string> begin, end;     // first and last time or step: archive_frames.hpp
+  std::optional<std::string> repeated;       // "first", "last": archive_frames.hpp
   std::vector<std::string> accept_residual;  // accepted checks, NAME=R: check_context.hpp
   bool strict = false;                       // true: an undecided check is an error
   bool drop_incomplete = false;

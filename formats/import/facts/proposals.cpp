@@ -22,11 +22,11 @@ bool is_at_rest(const ArchiveGrains& grains, std::size_t g)
 }
 
 /// Sum of the contact forces on each grain.
-std::vector<Vec3> contact_sums(const ArchiveMoment& moment)
+std::vector<Vec3> contact_sums(const ArchiveFrame& frame)
 {
-  const auto row = rows_by_id(moment.grains);
-  std::vector<Vec3> sum(moment.grains.size(), Vec3::Zero());
-  const auto& contacts = moment.contacts;
+  const auto row = rows_by_id(frame.grains);
+  std::vector<Vec3> sum(frame.grains.size(), Vec3::Zero());
+  const auto& contacts = frame.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (const auto i = row.find(contacts.i[c]); i != row.end()) sum[i->second] += contacts.force[c];
     if (contacts.at_wall(c)) continue;
@@ -114,13 +114,13 @@ std::vector<bool> resting_grains(const ArchiveGrains& first, const ArchiveGrains
   return resting;
 }
 
-std::optional<Vec3> suggested_gravity(const ArchiveMoment& moment, const std::vector<double>& mass,
+std::optional<Vec3> suggested_gravity(const ArchiveFrame& frame, const std::vector<double>& mass,
                                       const std::vector<bool>& resting)
 {
-  const auto& grains = moment.grains;
-  const bool understood = moment.questions.empty() || moment.contacts.size() > 0;
+  const auto& grains = frame.grains;
+  const bool understood = frame.questions.empty() || frame.contacts.size() > 0;
   if (grains.force.empty() || !understood || mass.empty()) return std::nullopt;
-  const auto sum = contact_sums(moment);
+  const auto sum = contact_sums(frame);
   std::array<std::vector<double>, 3> values;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if ((!resting.empty() && resting[g]) || !(mass[g] > 0)) continue;
@@ -189,16 +189,16 @@ Question question_of_species(const ArchiveGrains& grains, const std::vector<bool
   return question;
 }
 
-std::optional<Question> question_of_axes(const ArchiveMoment& moment, bool in_space,
+std::optional<Question> question_of_axes(const ArchiveFrame& frame, bool in_space,
                                          const std::optional<Vec3>& gravity)
 {
-  const auto plane = in_space ? "" : plane_of(moment.grains);
+  const auto plane = in_space ? "" : plane_of(frame.grains);
   if (!plane.empty()) {
     if (plane == "xy") return std::nullopt;
     return Question{"the axes of the flow", "--axes " + plane,
                     "along the base, away from it; the grains lie in this plane"};
   }
-  if (!gravity && moment.periodic[1] && !moment.periodic[2])
+  if (!gravity && frame.periodic[1] && !frame.periodic[2])
     return Question{"the axes of the flow", "--axes xz",
                     "along the base, away from it; the cell is periodic along y, but not along z"};
   if (!gravity) return std::nullopt;

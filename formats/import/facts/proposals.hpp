@@ -14,7 +14,7 @@ namespace grseg {
 /// Gravity in the archive's axes: each component is the median over the moving grains of (force -
 /// contact forces)/mass. Empty if forces or masses are missing, or if the columns of contacts are
 /// unknown. `mass` and `resting` (may be empty) are by grain.
-std::optional<Vec3> suggested_gravity(const ArchiveMoment& moment, const std::vector<double>& mass,
+std::optional<Vec3> suggested_gravity(const ArchiveFrame& frame, const std::vector<double>& mass,
                                       const std::vector<bool>& resting);
 
 /// The value of --gravity for a vector: "3.8,-9.0,0".
@@ -37,7 +37,7 @@ Question question_of_species(const ArchiveGrains& grains, const std::vector<bool
 /// lie in. For grains in space the proposed normal is the axis nearest to gravity; without a
 /// gravity vector it is z if y is periodic and z is not. `in_space` treats grains in a plane as
 /// grains in space.
-std::optional<Question> question_of_axes(const ArchiveMoment& moment, bool in_space,
+std::optional<Question> question_of_axes(const ArchiveFrame& frame, bool in_space,
                                          const std::optional<Vec3>& gravity);
 
 }  // namespace grseg

@@ -190,11 +190,11 @@ class FactFinder {
   {
     if (settings_.gravity) return parse_gravity(*settings_.gravity);
     if (archive_.gravity) return GravityText{std::nullopt, archive_.gravity};
-    const auto& grains = look_.moment.grains;
+    const auto& grains = look_.frame.grains;
     const bool has_mass = !grains.mass.empty() || facts_.density;
-    const auto suggested = suggested_gravity(
-        look_.moment, has_mass ? masses_of(grains, facts_) : std::vector<double>(),
-        resting_grains(grains, nullptr));
+    const auto suggested =
+        suggested_gravity(look_.frame, has_mass ? masses_of(grains, facts_) : std::vector<double>(),
+                          resting_grains(grains, nullptr));
     if (suggested)
       questions_.ask({"gravity", "--gravity " + gravity_option(*suggested),
                       "suggested by the forces on the grains; or its magnitude and --slope"});

@@ -27,8 +27,8 @@ struct RunFacts {
 
 /// Frames of the archive from which facts are found.
 struct FirstLook {
-  const ArchiveMoment& all;          // frame with all grains, perhaps without contacts
-  const ArchiveMoment& moment;       // early frame with contacts
+  const ArchiveFrame& all;           // frame with all grains, perhaps without contacts
+  const ArchiveFrame& frame;         // early frame with contacts
   const std::vector<bool>& resting;  // true for each grain of `all` at rest (proposals.hpp)
 };
 

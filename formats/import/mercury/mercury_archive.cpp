@@ -21,9 +21,9 @@ namespace {
 }
 
 void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is_known,
-             ArchiveMoment& moment)
+             ArchiveFrame& frame)
 {
-  const auto& grains = moment.grains;
+  const auto& grains = frame.grains;
   const auto i = static_cast<std::size_t>(row.i);
   const bool wall = row.j < 0;
   const auto j = wall ? i : static_cast<std::size_t>(row.j);
@@ -38,19 +38,19 @@ void add_row(const MercuryFStat& rows, const MercuryContact& row, bool period_is
                           "run; add --restart, which states the periodic directions",
                           row.i, row.j));
   }
-  moment.contacts.add(grains.id[i], grains.id[j], wall ? static_cast<std::int32_t>(-row.j - 1) : -1,
-                      side * (row.normal_force * row.normal + row.tangential_force * row.tangent),
-                      side * reach * row.normal, row.overlap);
+  frame.contacts.add(grains.id[i], grains.id[j], wall ? static_cast<std::int32_t>(-row.j - 1) : -1,
+                     side * (row.normal_force * row.normal + row.tangential_force * row.tangent),
+                     side * reach * row.normal, row.overlap);
 }
 
 /// Branch of a contact with a wall: x - contact point, of length r - overlap.
-Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
+Vec3 branch_to_wall(const ArchiveFrame& frame, const MercuryRestart& restart,
                     const MercuryRestart::Interaction& row, std::size_t g)
 {
-  const Vec3 x = moment.grains.position[g];
-  const double radius = moment.grains.radius[g];
+  const Vec3 x = frame.grains.position[g];
+  const double radius = frame.grains.radius[g];
   if (row.point) {
-    const Vec3 arm = moment.minimum_image(x - *row.point);  // its length is r - overlap/2
+    const Vec3 arm = frame.minimum_image(x - *row.point);  // its length is r - overlap/2
     return (2 - radius / arm.norm()) * arm;
   }
   const auto wall = restart.walls.find(row.j);
@@ -67,7 +67,7 @@ Vec3 branch_to_wall(const ArchiveMoment& moment, const MercuryRestart& restart,
 
 void add_interaction(const MercuryRestart& restart, const MercuryRestart::Interaction& row,
                      const std::unordered_map<std::int64_t, std::size_t>& row_of,
-                     ArchiveMoment& moment)
+                     ArchiveFrame& frame)
 {
   const auto find = [&row_of](std::int64_t id) {
     const auto found = row_of.find(id);
@@ -75,16 +75,16 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
       throw FormatError(fmt::format("names particle {}, which the file does not have", id));
     return found->second;
   };
-  const auto& grains = moment.grains;
+  const auto& grains = frame.grains;
   const auto i = find(row.i), j = row.wall ? i : find(row.j);
-  const Vec3 branch = row.wall ? branch_to_wall(moment, restart, row, i)
-                               : moment.minimum_image(grains.position[i] - grains.position[j]);
-  moment.contacts.add(row.i, row.wall ? row.i : row.j,
-                      row.wall ? static_cast<std::int32_t>(row.j) : -1, row.force, branch,
-                      grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
+  const Vec3 branch = row.wall ? branch_to_wall(frame, restart, row, i)
+                               : frame.minimum_image(grains.position[i] - grains.position[j]);
+  frame.contacts.add(row.i, row.wall ? row.i : row.j,
+                     row.wall ? static_cast<std::int32_t>(row.j) : -1, row.force, branch,
+                     grains.radius[i] + (row.wall ? 0 : grains.radius[j]) - branch.norm());
 }
 
-/// Adds the contacts of a block of .fstat, whose grain numbers are rows of `moment`:
+/// Adds the contacts of a block of .fstat, whose grain numbers are rows of `frame`:
 /// * Force on i = fn n + ft t, with n from j to i; at a wall n and t have the opposite signs.
 /// * Most pairs are in two rows, (i, j) and (j, i); pairs with a fixed grain or across a periodic
 ///   boundary are in one. Only the first row is used; it has the total force.
@@ -93,10 +93,10 @@ void add_interaction(const MercuryRestart& restart, const MercuryRestart::Intera
 ///   delta.
 /// Throws FormatError naming the row if grains and contacts do not match. Unless `period_is_known`,
 /// also for a pair that is too far apart to touch.
-void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, ArchiveMoment& moment)
+void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, ArchiveFrame& frame)
 {
   std::set<std::pair<std::int64_t, std::int64_t>> known;
-  const auto grains = static_cast<std::int64_t>(moment.grains.size());
+  const auto grains = static_cast<std::int64_t>(frame.grains.size());
   for (const auto& row : rows.contacts) {
     if (row.i < 0 || row.i >= grains || row.j >= grains || row.i == row.j)
       fail_at(rows, row,
@@ -104,20 +104,20 @@ void add_mercury_contacts(const MercuryFStat& rows, bool period_is_known, Archiv
                           "same run?",
                           row.i, row.j, grains));
     if (row.j >= 0 && !known.insert(std::minmax(row.i, row.j)).second) continue;
-    add_row(rows, row, period_is_known, moment);
+    add_row(rows, row, period_is_known, frame);
   }
 }
 
-/// Adds the contacts of the block Interactions, which names grains of `moment` by their ids.
+/// Adds the contacts of the block Interactions, which names grains of `frame` by their ids.
 /// Overlap and branch of two grains follow from their positions.
-void add_mercury_contacts(const MercuryRestart& restart, ArchiveMoment& moment)
+void add_mercury_contacts(const MercuryRestart& restart, ArchiveFrame& frame)
 {
-  const auto row_of = rows_by_id(moment.grains);
+  const auto row_of = rows_by_id(frame.grains);
   for (std::size_t k = 0; k < restart.interactions.size(); ++k) {
     try {
-      add_interaction(restart, restart.interactions[k], row_of, moment);
+      add_interaction(restart, restart.interactions[k], row_of, frame);
     } catch (const FormatError& error) {
-      throw FormatError(fmt::format("{}: interaction {} {}", moment.place, k + 1, error.what()));
+      throw FormatError(fmt::format("{}: interaction {} {}", frame.place, k + 1, error.what()));
     }
   }
 }
@@ -143,42 +143,42 @@ class MercuryArchive : public Archive {
   const ArchiveFacts& facts() const override { return facts_; }
   std::vector<std::string> remarks() const override { return matching_.remarks("t ="); }
 
-  bool next(ArchiveMoment& moment) override
+  bool next(ArchiveFrame& frame) override
   {
-    if (forces_ ? !next_of_both(moment) : !grains_->next(moment)) return false;
-    if (last_time_ && *moment.time <= *last_time_)
+    if (forces_ ? !next_of_both(frame) : !grains_->next(frame)) return false;
+    if (last_time_ && *frame.time <= *last_time_)
       throw FormatError(fmt::format(
           "{}: time {:g} comes after time {:g}: times must increase; remove the duplicate frame "
           "(from a restart), or name the files in order of time",
-          moment.place, *moment.time, *last_time_));
-    last_time_ = moment.time;
+          frame.place, *frame.time, *last_time_));
+    last_time_ = frame.time;
     const auto* restart = grains_->restart();
     if (forces_)
-      add_mercury_contacts(*forces_, restart != nullptr, moment);
+      add_mercury_contacts(*forces_, restart != nullptr, frame);
     else if (restart->positional > 0)
       throw UsageError(fmt::format(
           "{}: a .restart of version {} has no contact forces; name it with --grains and the "
           ".fstat of the run with --contacts",
-          moment.place, restart->positional));
+          frame.place, restart->positional));
     else
-      add_mercury_contacts(*restart, moment);
+      add_mercury_contacts(*restart, frame);
     return true;
   }
 
  private:
   /// Advances to the next time that both tables have. Times are equal to within the digits of the
   /// text: ten in .data and .fstat, eight or six in old files.
-  bool next_of_both(ArchiveMoment& moment)
+  bool next_of_both(ArchiveFrame& frame)
   {
     const auto order = [&] {
-      const double a = *moment.time, b = forces_->time;
+      const double a = *frame.time, b = forces_->time;
       if (std::abs(a - b) <= 2e-6 * std::max(std::abs(a), std::abs(b))) return 0;
       return a < b ? -1 : 1;
     };
     const auto text = [](double time) { return fmt::format("{:.10g}", time); };
-    return matching_.next(
-        {[&] { return grains_->next(moment); }, [&] { return text(*moment.time); }},
-        {[&] { return forces_->next(); }, [&] { return text(forces_->time); }}, order);
+    return matching_.next({[&] { return grains_->next(frame); }, [&] { return text(*frame.time); }},
+                          {[&] { return forces_->next(); }, [&] { return text(forces_->time); }},
+                          order);
   }
 
   std::unique_ptr<MercuryGrains> grains_;

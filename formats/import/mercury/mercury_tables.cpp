@@ -18,13 +18,13 @@ constexpr const char* removed =
     "identify grains; import the .restart files instead, which have ids "
     "(restartFile.setFileType(FileType::MULTIPLE_FILES); --restart 'run.restart.*')";
 
-void add_period(const MercuryRestart& restart, ArchiveMoment& moment)
+void add_period(const MercuryRestart& restart, ArchiveFrame& frame)
 {
   for (int axis = 0; axis < 3; ++axis) {
     if (!restart.periodic[static_cast<std::size_t>(axis)]) continue;
-    moment.periodic[static_cast<std::size_t>(axis)] = true;
-    moment.low[axis] = restart.low[axis];
-    moment.high[axis] = restart.high[axis];
+    frame.periodic[static_cast<std::size_t>(axis)] = true;
+    frame.low[axis] = restart.low[axis];
+    frame.high[axis] = restart.high[axis];
   }
 }
 
@@ -40,12 +40,12 @@ MercuryData::MercuryData(std::vector<std::string> files, std::string restart_pat
     restart_ = read_mercury_restart(restart_path_, MercuryBlocks::up_to_particles);
 }
 
-bool MercuryData::next(ArchiveMoment& moment)
+bool MercuryData::next(ArchiveFrame& frame)
 {
   do {
     if (!source_.next()) return false;
   } while (words_of(source_.line()).empty());
-  ArchiveMoment now;
+  ArchiveFrame now;
   now.place = source_.place();
   if (!source_.line_is_whole()) source_.fail_at_end("a header");
   read_numbers(source_, numbers_);
@@ -69,7 +69,7 @@ bool MercuryData::next(ArchiveMoment& moment)
     add_restart_facts(now.place, now.grains);
     add_period(*restart_, now);
   }
-  moment = std::move(now);
+  frame = std::move(now);
   return true;
 }
 
@@ -98,12 +98,12 @@ void MercuryData::read_row(ArchiveGrains& grains)
                              plane_ ? 6 : 8, plane_ ? "8 or 10" : "8, or 14 to 17"));
 }
 
-void MercuryData::require_rows_that_name_grains(const ArchiveMoment& moment) const
+void MercuryData::require_rows_that_name_grains(const ArchiveFrame& frame) const
 {
   const auto fail = [&](const std::string& why) {
-    throw FormatError(fmt::format("{}: {}: {}", moment.place, why, removed));
+    throw FormatError(fmt::format("{}: {}: {}", frame.place, why, removed));
   };
-  const auto& radius = moment.grains.radius;
+  const auto& radius = frame.grains.radius;
   const auto now = radius.size(), before = last_radius_.size();
   if (now < before) fail(fmt::format("{} grains, but {} before", now, before));
   for (std::size_t g = 0; g < before; ++g)
@@ -190,7 +190,7 @@ MercuryRestarts::MercuryRestarts(std::vector<std::string> files)
 {
 }
 
-bool MercuryRestarts::next(ArchiveMoment& moment)
+bool MercuryRestarts::next(ArchiveFrame& frame)
 {
   if (at_ == files_.size()) return false;
   const Vec3 gravity = restart_.gravity;
@@ -202,13 +202,13 @@ bool MercuryRestarts::next(ArchiveMoment& moment)
                     "import the files of each gravity separately",
                     files_[at_ - 1], restart_.gravity.x(), restart_.gravity.y(),
                     restart_.gravity.z(), gravity.x(), gravity.y(), gravity.z()));
-  moment = ArchiveMoment{};
-  moment.time = restart_.time;
-  moment.place = files_[at_ - 1];
-  moment.low = restart_.domain_low;
-  moment.high = restart_.domain_high;
-  add_period(restart_, moment);
-  auto& grains = moment.grains;
+  frame = ArchiveFrame{};
+  frame.time = restart_.time;
+  frame.place = files_[at_ - 1];
+  frame.low = restart_.domain_low;
+  frame.high = restart_.domain_high;
+  add_period(restart_, frame);
+  auto& grains = frame.grains;
   for (const auto& particle : restart_.particles) {
     grains.id.push_back(particle.id);
     grains.type.push_back(particle.species);

@@ -17,7 +17,7 @@ class MercuryGrains {
  public:
   virtual ~MercuryGrains() = default;
   /// Reads the next frame without its contacts; false at the end.
-  virtual bool next(ArchiveMoment& moment) = 0;
+  virtual bool next(ArchiveFrame& frame) = 0;
   /// The .restart (of the current frame, if there are many), with the periodic directions; or null.
   virtual const MercuryRestart* restart() const = 0;
 };
@@ -38,12 +38,12 @@ class MercuryGrains {
 class MercuryData : public MercuryGrains {
  public:
   MercuryData(std::vector<std::string> files, std::string restart_path, bool info_is_species);
-  bool next(ArchiveMoment& moment) override;
+  bool next(ArchiveFrame& frame) override;
   const MercuryRestart* restart() const override { return restart_ ? &*restart_ : nullptr; }
 
  private:
   void read_row(ArchiveGrains& grains);
-  void require_rows_that_name_grains(const ArchiveMoment& moment) const;
+  void require_rows_that_name_grains(const ArchiveFrame& frame) const;
   void add_restart_facts(const std::string& place, ArchiveGrains& grains) const;
 
   TextSource source_;
@@ -60,7 +60,7 @@ class MercuryData : public MercuryGrains {
 class MercuryRestarts : public MercuryGrains {
  public:
   explicit MercuryRestarts(std::vector<std::string> files);
-  bool next(ArchiveMoment& moment) override;
+  bool next(ArchiveFrame& frame) override;
   const MercuryRestart* restart() const override { return &restart_; }
 
  private:

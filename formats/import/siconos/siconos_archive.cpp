@@ -127,7 +127,7 @@ class SiconosArchive : public Archive {
 
   const ArchiveFacts& facts() const override { return facts_; }
 
-  bool next(ArchiveMoment& moment) override
+  bool next(ArchiveFrame& frame) override
   {
     while (const auto time = places_.time()) {
       const auto place = places_.rows_of(*time, place_rows_);
@@ -137,14 +137,14 @@ class SiconosArchive : public Archive {
       const bool follows = knows_state_;
       knows_state_ = follows || whole || steps_.has_start;
       if (whole) {
-        moment = ArchiveMoment{};
-        moment.time = *time;
-        moment.step = std::llround(*time / steps_.length);
-        moment.place = fmt::format("{}, t = {:.6g}", path_, *time);
-        fill_places(place, moment.grains);
-        fill_velocities(*time, velocity, moment.grains);
-        fill_contacts(*time, point, moment.grains, moment.contacts);
-        enclose_grains(moment);
+        frame = ArchiveFrame{};
+        frame.time = *time;
+        frame.step = std::llround(*time / steps_.length);
+        frame.place = fmt::format("{}, t = {:.6g}", path_, *time);
+        fill_places(place, frame.grains);
+        fill_velocities(*time, velocity, frame.grains);
+        fill_contacts(*time, point, frame.grains, frame.contacts);
+        enclose_grains(frame);
       }
       previous_time_ = *time;
       if (whole && follows) return true;

@@ -8,24 +8,24 @@
 namespace grseg {
 namespace {
 
-/// Calls `visit` with the name, the unit and a reference of every number of a CheckMoment.
-template <class Moment, class Visit>
-void visit_numbers(Moment& moment, const Visit& visit)
+/// Calls `visit` with the name, the unit and a reference of every number of a CheckFrame.
+template <class Checked, class Visit>
+void visit_numbers(Checked& frame, const Visit& visit)
 {
-  visit("distance", "", moment.distance);
-  visit("gap", "", moment.gap);
-  visit("overlap", "", moment.overlap);
-  visit("pull", "", moment.pull);
-  visit("unlisted", "", moment.unlisted);
-  visit("unlisted_pairs", "", moment.unlisted_pairs);
-  visit("unlisted_may_part", "", moment.unlisted_may_part);
-  visit("rigid", "", moment.rigid);
-  visit("balance", "", moment.balance);
-  visit("balance_grains", "", moment.balance_grains);
-  visit("balance_worst", "", moment.balance_worst);
-  visit("change", "", moment.change);
-  visit("acceleration", "m s-2", moment.acceleration);
-  visit("medians", "", moment.medians);
+  visit("distance", "", frame.distance);
+  visit("gap", "", frame.gap);
+  visit("overlap", "", frame.overlap);
+  visit("pull", "", frame.pull);
+  visit("unlisted", "", frame.unlisted);
+  visit("unlisted_pairs", "", frame.unlisted_pairs);
+  visit("unlisted_may_part", "", frame.unlisted_may_part);
+  visit("rigid", "", frame.rigid);
+  visit("balance", "", frame.balance);
+  visit("balance_grains", "", frame.balance_grains);
+  visit("balance_worst", "", frame.balance_worst);
+  visit("change", "", frame.change);
+  visit("acceleration", "m s-2", frame.acceleration);
+  visit("medians", "", frame.medians);
   const auto visit_estimate = [&](const std::string& name, auto& estimate) {
     visit(name + "_grains", "", estimate.grains);
     visit(name + "_x", "m s-2", estimate.gravity.x());
@@ -33,9 +33,9 @@ void visit_numbers(Moment& moment, const Visit& visit)
     visit(name + "_z", "m s-2", estimate.gravity.z());
     visit(name + "_error", "m s-2", estimate.error);
   };
-  visit_estimate("gravity", moment.all);
-  visit_estimate("gravity_smaller", moment.smaller);
-  visit_estimate("gravity_larger", moment.larger);
+  visit_estimate("gravity", frame.all);
+  visit_estimate("gravity_smaller", frame.smaller);
+  visit_estimate("gravity_larger", frame.larger);
   const auto visit_sums = [&](const std::string& name, auto& sums, const char* square,
                               const char* fourth) {
     visit(name + "_grains", "", sums.grains);
@@ -46,8 +46,8 @@ void visit_numbers(Moment& moment, const Visit& visit)
     visit(name + "_xx_xy", fourth, sums.xx_xy);
     visit(name + "_xy_xy", fourth, sums.xy_xy);
   };
-  visit_sums("motion", moment.motion, "", "");
-  visit_sums("force", moment.force, "m2 s-4", "m4 s-8");
+  visit_sums("motion", frame.motion, "", "");
+  visit_sums("force", frame.force, "m2 s-4", "m4 s-8");
 }
 
 /// Relative rounding error of contact forces in text of six digits.
@@ -93,7 +93,7 @@ Estimate from_medians(const std::vector<Weighted>& values, double squared_within
 {
   Estimate estimate;
   estimate.value = mean_of(values);
-  estimate.moments = values.size();
+  estimate.frames = values.size();
   estimate.medians = true;
   for (const auto& [weight, value] : values) estimate.grains += weight;
   const double within = std::sqrt(squared_within) / estimate.grains;
@@ -124,27 +124,27 @@ SlopeSums& SlopeSums::operator+=(const SlopeSums& other)
   return *this;
 }
 
-CheckMoment in_si(CheckMoment moment, const Units& units)
+CheckFrame in_si(CheckFrame frame, const Units& units)
 {
   const double acceleration = units.acceleration(), square = acceleration * acceleration;
-  moment.time *= units.time;
-  moment.acceleration *= acceleration;
-  for (auto* estimate : {&moment.all, &moment.smaller, &moment.larger}) {
+  frame.time *= units.time;
+  frame.acceleration *= acceleration;
+  for (auto* estimate : {&frame.all, &frame.smaller, &frame.larger}) {
     estimate->gravity *= acceleration;
     estimate->error *= acceleration;
   }
-  auto& force = moment.force;
+  auto& force = frame.force;
   for (auto* sum : {&force.xx, &force.xy, &force.yy}) *sum *= square;
   for (auto* sum : {&force.xx_xx, &force.xx_xy, &force.xy_xy}) *sum *= square * square;
-  return moment;
+  return frame;
 }
 
 const std::vector<Observable>& check_observables()
 {
   static const auto observables = [] {
     std::vector<Observable> all;
-    const CheckMoment moment;
-    visit_numbers(moment, [&](const std::string& name, const char* unit, const double&) {
+    const CheckFrame frame;
+    visit_numbers(frame, [&](const std::string& name, const char* unit, const double&) {
       all.push_back({"check_" + name, unit});
     });
     return all;
@@ -152,22 +152,22 @@ const std::vector<Observable>& check_observables()
   return observables;
 }
 
-std::vector<double> check_values(const CheckMoment& moment)
+std::vector<double> check_values(const CheckFrame& frame)
 {
   std::vector<double> values;
-  visit_numbers(moment, [&](const std::string&, const char*, const double& value) {
+  visit_numbers(frame, [&](const std::string&, const char*, const double& value) {
     values.push_back(value);
   });
   return values;
 }
 
-void set_check_values(CheckMoment& moment, const std::vector<double>& values)
+void set_check_values(CheckFrame& frame, const std::vector<double>& values)
 {
   auto value = values.begin();
-  visit_numbers(moment, [&](const std::string&, const char*, double& place) { place = *value++; });
+  visit_numbers(frame, [&](const std::string&, const char*, double& place) { place = *value++; });
 }
 
-std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckMoment::*which)
+std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckFrame::*which)
 {
   std::vector<Weighted> medians, sums;
   double squared_within = 0, grains = 0;
@@ -188,7 +188,7 @@ std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate 
   if (n < fewest_pairs) return std::nullopt;
   Estimate estimate;
   estimate.value = mean_of(sums);
-  estimate.moments = n;
+  estimate.frames = n;
   estimate.grains = grains / static_cast<double>(n);
   const auto lag = static_cast<std::size_t>(std::cbrt(static_cast<double>(n)));
   estimate.error = std::sqrt(squared_error(sums, estimate.value, lag));
@@ -208,17 +208,17 @@ std::optional<Slope> slope_of(const SlopeSums& s)
   return slope;
 }
 
-SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckMoment::*which)
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckFrame::*which)
 {
   SlopeSums sums;
-  for (const auto& moment : series) sums += moment.*which;
+  for (const auto& frame : series) sums += frame.*which;
   return sums;
 }
 
 std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance)
 {
   return differing_halves(
-      series, [](const CheckSeries& half) { return gravity_from(half, &CheckMoment::all); },
+      series, [](const CheckSeries& half) { return gravity_from(half, &CheckFrame::all); },
       [&](const Estimate& first, const Estimate& second) {
         return !((second.value - first.value).norm() <=
                  std::max(tolerance, 5 * std::hypot(first.error, second.error)));
@@ -226,7 +226,7 @@ std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, dou
 }
 
 std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
-                                             SlopeSums CheckMoment::*which)
+                                             SlopeSums CheckFrame::*which)
 {
   return differing_halves(
       series, [&](const CheckSeries& half) { return slope_of(sums_of(half, which)); },

@@ -39,7 +39,7 @@ struct SlopeSums {
 };
 
 /// The numbers of one frame.
-struct CheckMoment {
+struct CheckFrame {
   std::int64_t step = 0;
   double time = 0;  // s
 
@@ -79,22 +79,22 @@ struct CheckMoment {
 };
 
 /// Converts from the units of an archive to SI.
-CheckMoment in_si(CheckMoment moment, const Units& units);
+CheckFrame in_si(CheckFrame frame, const Units& units);
 
-using CheckSeries = std::vector<CheckMoment>;
+using CheckSeries = std::vector<CheckFrame>;
 
 /// The observables that store the numbers of a frame, and their values, in the same order.
 const std::vector<Observable>& check_observables();
-std::vector<double> check_values(const CheckMoment& moment);
-void set_check_values(CheckMoment& moment, const std::vector<double>& values);
+std::vector<double> check_values(const CheckFrame& frame);
+void set_check_values(CheckFrame& frame, const std::vector<double>& values);
 
 /// A vector and its standard error.
 struct Estimate {
   Vec3 value = Vec3::Zero();
   double error = 0;
-  std::size_t moments = 0;  // number of frames, or of pairs of frames
-  double grains = 0;        // mean number of grains in a frame
-  bool medians = false;     // true: from medians over grains; false: from sums over all grains
+  std::size_t frames = 0;  // number of frames, or of pairs of frames
+  double grains = 0;       // mean number of grains in a frame
+  bool medians = false;    // true: from medians over grains; false: from sums over all grains
 };
 
 /// Smallest number of pairs of frames for a standard error of sums over all grains.
@@ -104,8 +104,7 @@ inline constexpr std::size_t fewest_pairs = 8;
 /// mean, weighted by numbers of grains, with the larger of the standard errors within frames and
 /// between frames. Otherwise from sums over all grains: their mean over time, with a standard error
 /// that includes correlations of successive frames; empty for fewer than `fewest_pairs` pairs.
-std::optional<Estimate> gravity_from(const CheckSeries& series,
-                                     GravityEstimate CheckMoment::*which);
+std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckFrame::*which);
 
 /// Values in the first and the second half of the frames.
 template <class Value>
@@ -129,10 +128,10 @@ inline constexpr double slope_tolerance = 0.1, sharp_slope = 0.5 - slope_toleran
 
 /// The slope; empty for fewer than three grains, or if `doubt` is larger than 0.1.
 std::optional<Slope> slope_of(const SlopeSums& sums);
-SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckMoment::*which);
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckFrame::*which);
 
 /// The slopes of both halves, if they differ by more than their uncertainties and slope_tolerance.
 std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
-                                             SlopeSums CheckMoment::*which);
+                                             SlopeSums CheckFrame::*which);
 
 }  // namespace grseg

@@ -11,10 +11,10 @@
 namespace grseg {
 namespace {
 
-double largest(const CheckSeries& series, double CheckMoment::*number)
+double largest(const CheckSeries& series, double CheckFrame::*number)
 {
   double value = 0;
-  for (const auto& moment : series) value = std::max(value, moment.*number);
+  for (const auto& frame : series) value = std::max(value, frame.*number);
   return value;
 }
 
@@ -26,8 +26,8 @@ Finding within(const char* check, double measure, double limit, const std::strin
 
 Finding judge_contacts(const CheckSeries& series)
 {
-  const double distance = largest(series, &CheckMoment::distance);
-  const double gap = largest(series, &CheckMoment::gap);
+  const double distance = largest(series, &CheckFrame::distance);
+  const double gap = largest(series, &CheckFrame::gap);
   auto finding = within(
       "contacts", std::max(distance, gap), widest_gap,
       fmt::format("grains that exert a force on each other are up to {:.2g} of the smaller radius "
@@ -40,16 +40,16 @@ Finding judge_contacts(const CheckSeries& series)
 
 Finding judge_completeness(const CheckSeries& series)
 {
-  const double rigid = largest(series, &CheckMoment::rigid);
+  const double rigid = largest(series, &CheckFrame::rigid);
   if (rigid > fewest_rigid)
     return {"completeness", Verdict::failed,
             fmt::format("up to {:.2g} of the grains are parts of rigid bodies", rigid),
             rigid_bodies};
   double pairs = 0, missing = 0, may_part = 0;
-  for (const auto& moment : series) {
-    pairs = std::max(pairs, moment.unlisted_pairs);
-    auto& deepest = moment.unlisted_may_part != 0 ? may_part : missing;
-    deepest = std::max(deepest, moment.unlisted);
+  for (const auto& frame : series) {
+    pairs = std::max(pairs, frame.unlisted_pairs);
+    auto& deepest = frame.unlisted_may_part != 0 ? may_part : missing;
+    deepest = std::max(deepest, frame.unlisted);
   }
   if (pairs == 0)
     return {"completeness", Verdict::passed, "grains that overlap are listed as contacts", 0};
@@ -82,14 +82,14 @@ std::string why_balance_is_open(const CheckSeries& series)
 
 Finding judge_balance(const CheckSeries& series, const CheckContext& context)
 {
-  double measure = 0, worst = 0, moments = 0;
-  for (const auto& moment : series) {
-    if (moment.balance_grains == 0) continue;
-    measure = std::max(measure, moment.balance);
-    worst = std::max(worst, moment.balance_worst);
-    ++moments;
+  double measure = 0, worst = 0, frames = 0;
+  for (const auto& frame : series) {
+    if (frame.balance_grains == 0) continue;
+    measure = std::max(measure, frame.balance);
+    worst = std::max(worst, frame.balance_worst);
+    ++frames;
   }
-  if (moments == 0) return {"balance", Verdict::undecided, why_balance_is_open(series), 0};
+  if (frames == 0) return {"balance", Verdict::undecided, why_balance_is_open(series), 0};
   if (measure <= context.tolerance && worst > context.tolerance)
     return {"balance", Verdict::undecided,
             fmt::format(
@@ -100,7 +100,7 @@ Finding judge_balance(const CheckSeries& series, const CheckContext& context)
             worst};
   return within("balance", measure, context.tolerance,
                 fmt::format("up to {:.3g} of the largest force is missing on a grain, in {} {}",
-                            measure, moments, moments == 1 ? "frame" : "frames"));
+                            measure, frames, frames == 1 ? "frame" : "frames"));
 }
 
 /// Largest factor by which a nominal diameter may differ from the nearest diameter of its grains.
@@ -150,8 +150,8 @@ std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContex
 std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context)
 {
   const auto gravity = judge_gravity(series, context);
-  const double overlap = largest(series, &CheckMoment::overlap);
-  const double pull = largest(series, &CheckMoment::pull);
+  const double overlap = largest(series, &CheckFrame::overlap);
+  const double pull = largest(series, &CheckFrame::pull);
   std::vector<Finding> findings{
       judge_contacts(series),
       judge_completeness(series),
@@ -207,7 +207,7 @@ Finding judge_sizes(const CheckContext& context)
 Finding judge_time(const CheckSeries& series, const CheckContext& context)
 {
   if (auto finding = by_own_times(series, context)) return *finding;
-  const auto slope = slope_of(sums_of(series, &CheckMoment::motion));
+  const auto slope = slope_of(sums_of(series, &CheckFrame::motion));
   if (series.size() < 2)
     return undecided_time(context,
                           "a single frame has no displacements to compare velocities with");
@@ -216,7 +216,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
         context,
         "too few grains have a steady velocity from one frame to the next to compare "
         "displacements with velocities");
-  if (const auto change = change_of_slope(series, &CheckMoment::motion))
+  if (const auto change = change_of_slope(series, &CheckFrame::motion))
     return {
         "time", Verdict::failed,
         fmt::format("displacements are {:.4g} times velocity times time in the first half of the "

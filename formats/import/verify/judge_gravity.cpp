@@ -54,7 +54,7 @@ std::string text_of(const CheckContext& context, const Vec3& gravity)
 double median_acceleration(const CheckSeries& series)
 {
   std::vector<double> values;
-  for (const auto& moment : series) values.push_back(moment.acceleration);
+  for (const auto& frame : series) values.push_back(frame.acceleration);
   return median(values);
 }
 
@@ -90,9 +90,8 @@ std::string remedy(const CheckContext& context, const Estimate& estimate)
 std::string source(const Estimate& found)
 {
   return fmt::format("from {} {:.0f} grains in {} {}",
-                     found.medians ? "the median over" : "the sum over", found.grains,
-                     found.moments,
-                     found.medians ? (found.moments == 1 ? "frame" : "frames") : "pairs of frames");
+                     found.medians ? "the median over" : "the sum over", found.grains, found.frames,
+                     found.medians ? (found.frames == 1 ? "frame" : "frames") : "pairs of frames");
 }
 
 Finding turning(const CheckSeries& series, const CheckContext& context,
@@ -128,9 +127,9 @@ Finding part(Verdict verdict, const std::string& sentence, double measure = 0)
 Finding by_size(const CheckSeries& series, const CheckContext& context)
 {
   if (!(context.size_ratio > 1)) return part(Verdict::undecided, "all grains have one size");
-  const auto all = gravity_from(series, &CheckMoment::all);
-  const auto smaller = gravity_from(series, &CheckMoment::smaller);
-  const auto larger = gravity_from(series, &CheckMoment::larger);
+  const auto all = gravity_from(series, &CheckFrame::all);
+  const auto smaller = gravity_from(series, &CheckFrame::smaller);
+  const auto larger = gravity_from(series, &CheckFrame::larger);
   if (!all || !smaller || !larger)
     return part(Verdict::undecided, "the weights of small and large grains are not known apart");
   const Vec3 down = all->value.normalized();
@@ -164,8 +163,8 @@ Finding by_size(const CheckSeries& series, const CheckContext& context)
 /// Compares force over acceleration with the mass, for grains with a known acceleration.
 Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 {
-  const auto slope = slope_of(sums_of(series, &CheckMoment::force));
-  if (const auto change = change_of_slope(series, &CheckMoment::force))
+  const auto slope = slope_of(sums_of(series, &CheckFrame::force));
+  if (const auto change = change_of_slope(series, &CheckFrame::force))
     return part(
         Verdict::failed,
         fmt::format("force over acceleration is {:.4g} times the mass in the first half of the "
@@ -196,7 +195,7 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 
 Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
 {
-  const auto found = gravity_from(series, &CheckMoment::all);
+  const auto found = gravity_from(series, &CheckFrame::all);
   if (!found)
     return undecided_gravity(
         context, fmt::format("without forces on grains, an estimate of gravity needs {} pairs of "

@@ -43,9 +43,9 @@ Verification::Verification(const Grains& grains, const Box& box, const Vec3& gra
 
 std::optional<Complaint> Verification::check(const Frame<3>& frame, bool has_images)
 {
-  moment_ = {};
-  moment_.step = frame.step;
-  moment_.time = frame.time;
+  numbers_ = {};
+  numbers_.step = frame.step;
+  numbers_.time = frame.time;
   auto sums = sums_as(frame, nullptr);
   residual_ = residual_with(frame, sums);
   auto complaint = distance_moved(frame);
@@ -63,9 +63,9 @@ std::optional<Complaint> Verification::check(const Frame<3>& frame, bool has_ima
   also(balance(frame, sums));
   const auto distance = from_before(frame, sums);
   if (before_ && frame.force.empty() && distance != Distance::step)
-    moment_.change = change_of_sums(grains_, frame, sums.before, sums.now);
+    numbers_.change = change_of_sums(grains_, frame, sums.before, sums.now);
   const bool close = distance == Distance::step || distance == Distance::close;
-  statistics_.add_to(moment_, frame, sums.now, before_, close, has_images && !frame.image.empty());
+  statistics_.add_to(numbers_, frame, sums.now, before_, close, has_images && !frame.image.empty());
   before_ = {frame, std::move(sums.now)};
   return complaint;
 }
@@ -105,9 +105,9 @@ std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size
   const double overlap = -contacts.gap[c] / smaller;
   const double distance =
       std::max(std::abs(apart - stated), (contacts.branch[c] - between).norm()) / smaller;
-  moment_.distance = std::max(moment_.distance, distance);
-  moment_.gap = std::max(moment_.gap, gap);
-  moment_.overlap = std::max(moment_.overlap, overlap);
+  numbers_.distance = std::max(numbers_.distance, distance);
+  numbers_.gap = std::max(numbers_.gap, gap);
+  numbers_.overlap = std::max(numbers_.overlap, overlap);
   const bool as_stated = distance <= waivers_.limit("contacts", largest_distance);
   if (!as_stated || gap > waivers_.limit("contacts", widest_gap))
     return Complaint{
@@ -136,18 +136,18 @@ std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
                                                     const ListedPairs& listed)
 {
   const auto found =
-      unlisted_pairs_of(grains_, box_, frame, listed, std::max(moment_.gap, moment_.distance));
+      unlisted_pairs_of(grains_, box_, frame, listed, std::max(numbers_.gap, numbers_.distance));
   const bool is_soft = accuracy_.lists_all || found.forces_grow;
   const bool all_balance =
       residual_ && std::max(residual_->worst, residual_->unexplained) <= tolerance();
   if (is_soft || !all_balance) {
-    moment_.unlisted = found.deepest();
-    moment_.unlisted_pairs = static_cast<double>(found.unlisted.size());
-    moment_.unlisted_may_part = !is_soft && !residual_ && !found.unlisted.empty();
+    numbers_.unlisted = found.deepest();
+    numbers_.unlisted_pairs = static_cast<double>(found.unlisted.size());
+    numbers_.unlisted_may_part = !is_soft && !residual_ && !found.unlisted.empty();
   }
-  moment_.rigid = found.rigid_grains;
+  numbers_.rigid = found.rigid_grains;
   const double limit = waivers_.limit("completeness", 0);
-  if (moment_.rigid > fewest_rigid && limit < rigid_bodies)
+  if (numbers_.rigid > fewest_rigid && limit < rigid_bodies)
     return Complaint{
         "completeness",
         fmt::format(
@@ -155,7 +155,7 @@ std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
             "first: {}): rigid bodies of several grains are not supported, "
             "because the forces inside them are unknown",
             100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j))};
-  if (moment_.unlisted > limit && moment_.unlisted_may_part == 0)
+  if (numbers_.unlisted > limit && numbers_.unlisted_may_part == 0)
     return Complaint{"completeness", missing_rows_of(found), true};
   return std::nullopt;
 }
@@ -187,11 +187,11 @@ std::optional<Complaint> Verification::pull(const Frame<3>& frame)
     const double normal = contacts.force[c].dot(contacts.branch[c].normalized());
     (normal < 0 ? pulling : pushing) += std::abs(normal);
   }
-  if (pulling > 0) moment_.pull = pulling / (pulling + pushing);
-  if (moment_.pull <= waivers_.limit("pull", largest_pull)) return std::nullopt;
+  if (pulling > 0) numbers_.pull = pulling / (pulling + pushing);
+  if (numbers_.pull <= waivers_.limit("pull", largest_pull)) return std::nullopt;
   return Complaint{"pull",
                    fmt::format("contacts pull: {:.0f} % of the normal force is attractive{}",
-                               100 * moment_.pull, other_readings(frame)),
+                               100 * numbers_.pull, other_readings(frame)),
                    true};
 }
 
@@ -333,10 +333,10 @@ void Verification::judge_by_velocities(const Frame<3>& frame, const Sums& sums,
 std::optional<Complaint> Verification::balance(const Frame<3>& frame, const Sums& sums)
 {
   if (!residual_) return std::nullopt;
-  moment_.balance = residual_->unexplained;
-  moment_.balance_worst = residual_->worst;
+  numbers_.balance = residual_->unexplained;
+  numbers_.balance_worst = residual_->worst;
   for (std::size_t g = 0; g < grains_.size(); ++g)
-    moment_.balance_grains += is_mobile(grains_, frame, g);
+    numbers_.balance_grains += is_mobile(grains_, frame, g);
   if (residual_->unexplained <= tolerance()) return std::nullopt;
   const auto [defect, scale] = defect_of(frame, sums);
   const Imbalance missing{grains_, box_, frame, defect, tolerance() * scale};

@@ -4,8 +4,8 @@
 #include "formats/core/frame.hpp"
 #include "formats/import/verify/check_context.hpp"
 #include "formats/import/verify/check_series.hpp"
+#include "formats/import/verify/frame_statistics.hpp"
 #include "formats/import/verify/imbalance.hpp"
-#include "formats/import/verify/moment_statistics.hpp"
 #include "formats/import/verify/unlisted_pairs.hpp"
 
 #include <array>
@@ -52,7 +52,7 @@ struct OutputAccuracy {
 /// each grain. If the archive has no forces on grains, the force is m times the change of velocity
 /// since the previous frame, and is compared with the mean contact forces of the two frames: for
 /// every grain if they are consecutive steps, for the median grain if they are close together
-/// (judge.hpp), otherwise not at all. moment() returns the numbers for checks over many frames.
+/// (judge.hpp), otherwise not at all. numbers() returns the numbers for checks over many frames.
 class Verification {
  public:
   /// All arguments in any consistent units. `axes` are used in messages only.
@@ -60,7 +60,7 @@ class Verification {
                const OutputAccuracy& accuracy, const Waivers& waivers = {},
                const std::array<AxisInArchive, 3>& axes = {});
 
-  /// See MomentStatistics::leave_out().
+  /// See FrameStatistics::leave_out().
   void leave_out(const std::vector<std::uint8_t>& grains) { statistics_.leave_out(grains); }
   /// Checks a frame; to be called for all frames in order. Returns the first error that is not
   /// waived, if any. `has_images`: the archive states images.
@@ -69,7 +69,7 @@ class Verification {
   /// Residuals of the last frame; empty if no force or acceleration of the grains is known.
   const std::optional<Residual>& residual() const { return residual_; }
   /// Numbers of the last frame for checks over many frames, in the units of the grains.
-  const CheckMoment& moment() const { return moment_; }
+  const CheckFrame& numbers() const { return numbers_; }
 
  private:
   using Forces = std::vector<Vec3>;
@@ -114,10 +114,10 @@ class Verification {
   OutputAccuracy accuracy_;
   Waivers waivers_;
   std::array<AxisInArchive, 3> axes_;
-  MomentStatistics statistics_;
+  FrameStatistics statistics_;
   std::optional<Residual> residual_;
-  CheckMoment moment_;
-  std::optional<MomentBefore> before_;
+  CheckFrame numbers_;
+  std::optional<FrameBefore> before_;
 };
 
 }  // namespace grseg

@@ -26,7 +26,7 @@ double number_under(const std::vector<std::string>& columns, const std::vector<d
 
 TEST(PartitionTable, EveryNumberStandsUnderItsRuleAndUnit)
 {
-  const auto frames = two_moments(12);
+  const auto frames = two_frames(12);
   const auto balance = momentum_of<2>(frames);
   const auto contacts = contacts_of<2>(frames);
   const auto species = two_sizes(0.2, 0.4);
@@ -82,7 +82,7 @@ TEST(PartitionSummary, TheErrorOfPStarIsThatOfARatioOfSums)
   BalanceSummary<2> summary(layers, large_diameter, all_rules);
   std::vector<double> above, below;
   for (unsigned seed = 21; seed < 26; ++seed) {
-    const auto frames = two_moments(seed);
+    const auto frames = two_frames(seed);
     const auto window = momentum_of<2>(frames);
     const auto contacts = contacts_of<2>(frames);
     summary.add(window, &contacts);
@@ -115,7 +115,7 @@ TEST(PartitionSummary, OfOneWindowHasNoErrors)
 {
   BalanceSummary<2> summary(thin_layers<2>(), 0.01, all_rules);
   const auto add = [&](unsigned seed) {
-    const auto frames = two_moments(seed);
+    const auto frames = two_frames(seed);
     const auto contacts = contacts_of<2>(frames);
     summary.add(momentum_of<2>(frames), &contacts);
   };

@@ -282,7 +282,7 @@ TEST(PartitionGauge, PartsMergeIntoTheWhole)
 // balance: only their sum does not depend on the rule.
 TEST(PartitionGauge, UnderEveryRuleTheInteractionIsSpreadDragAndScatter)
 {
-  const auto frames = two_moments(9);
+  const auto frames = two_frames(9);
   const auto balance = momentum_of<2>(frames);
   const auto contacts = contacts_of<2>(frames);
   for (std::size_t n = 0; n < 3; ++n) {
@@ -305,7 +305,7 @@ TEST(PartitionGauge, UnderEveryRuleTheInteractionIsSpreadDragAndScatter)
 // The share p of every mixed contact belongs to its large grain, so the push is linear in p and 0 at p*.
 TEST(PartitionGauge, ThePushChangesItsSignAtPStar)
 {
-  const auto frames = two_moments(11);
+  const auto frames = two_frames(11);
   const auto balance = momentum_of<2>(frames);
   for (std::size_t n = 0; n < 3; ++n) {
     const auto forces = driving_forces(balance, n);

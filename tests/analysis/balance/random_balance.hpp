@@ -92,7 +92,7 @@ MomentumBalance<D> momentum_of(const std::vector<PackingOf<D>>& frames, std::siz
 }
 
 /// Two frames half a second apart, between which grains have moved.
-inline std::vector<Packing> two_moments(unsigned seed)
+inline std::vector<Packing> two_frames(unsigned seed)
 {
   auto scene = random_contacts<2>(seed);
   // Most contacts are repulsive, so that there is a stress to share.

@@ -31,7 +31,7 @@ TEST(SegregationSeries, HeightsAndShearRateAreThoseOfTheBed)
   SegregationSeries<2> series(layers);
   const auto scene = shear(3, 50);
   series.add(scene.grains, scene.frame);
-  const auto& now = series.moments()[0];
+  const auto& now = series.states()[0];
   EXPECT_NEAR(now.large, 5, 1e-12);
   EXPECT_NEAR(now.small, 15, 1e-12);
   EXPECT_NEAR(now.bed, 20, 1e-12);
@@ -48,11 +48,11 @@ TEST(SegregationSeries, StrainIsTheIntegralOfTheShearRate)
     whole.add(scene.grains, scene.frame);
     (k < 8 ? first : second).add(scene.grains, scene.frame);
   }
-  EXPECT_NEAR(whole.moments().back().strain, 6, 1e-12);
+  EXPECT_NEAR(whole.states().back().strain, 6, 1e-12);
   first.merge(second);
-  ASSERT_EQ(first.moments().size(), 21u);
+  ASSERT_EQ(first.states().size(), 21u);
   for (std::size_t k = 0; k < 21; ++k)
-    EXPECT_NEAR(first.moments()[k].strain, whole.moments()[k].strain, 1e-12);
+    EXPECT_NEAR(first.states()[k].strain, whole.states()[k].strain, 1e-12);
 }
 
 /// y_L rises exponentially in strain; the shear rate falls from 20 to 10 over the run; the mixing
@@ -61,7 +61,7 @@ std::vector<BedState> history(int count, double scatter)
 {
   std::mt19937 random(4);
   std::normal_distribution<double> kick(0, scatter);
-  std::vector<BedState> moments;
+  std::vector<BedState> states;
   for (int k = 0; k < count; ++k) {
     BedState now;
     now.time = 2 + 0.05 * k;
@@ -69,9 +69,9 @@ std::vector<BedState> history(int count, double scatter)
     now.strain = 20 * t - t * t / 10;
     now.large = 0.25 - 0.2 * std::exp(-now.strain / 200);
     now.mixing = 0.9 - 0.001 * (t - 16.3) * (t - 16.3) + kick(random);
-    moments.push_back(now);
+    states.push_back(now);
   }
-  return moments;
+  return states;
 }
 
 Estimate number(const NamedNumbers& summary, const std::string& name)
@@ -108,13 +108,13 @@ TEST(SegregationTimes, TheBedIsMixedMostWhereItsIndexIsLargest)
 
 TEST(SegregationTimes, ARunThatEndsTooEarlySaysSo)
 {
-  const auto moments = history(200, 1e-5);
-  const auto summary = segregation_times(moments, std::vector<std::size_t>(8, 25));
+  const auto states = history(200, 1e-5);
+  const auto summary = segregation_times(states, std::vector<std::size_t>(8, 25));
   EXPECT_TRUE(std::isnan(number(summary, "t90_strain").value));
   EXPECT_TRUE(std::isnan(number(summary, "t_mixing[s]").value));
   ASSERT_GE(summary.remarks.size(), 2u);
   EXPECT_NE(summary.remarks.back().find("largest in the last window"), std::string::npos);
-  const auto tiny = segregation_times({moments.begin(), moments.begin() + 5}, {5});
+  const auto tiny = segregation_times({states.begin(), states.begin() + 5}, {5});
   EXPECT_TRUE(std::isnan(number(tiny, "tau[s]").value));
   EXPECT_EQ(
       tiny.remarks[0],

@@ -26,7 +26,7 @@ TEST(Progress, OfARunThatIsContinuedHasTheRateOfWhatIsNew)
 
 TEST(Progress, StatesNoRemainingTimeIfTheTotalIsUnknown)
 {
-  EXPECT_EQ(progress_text(30, {"moments"}, 10), "30 moments, 3.0/s");
+  EXPECT_EQ(progress_text(30, {"frames"}, 10), "30 frames, 3.0/s");
 }
 
 TEST(Progress, SaysNeitherRateNorTimeBeforeTheyAreKnown)

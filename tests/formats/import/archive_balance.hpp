@@ -10,11 +10,11 @@
 /// Newton's law in the frames of an archive.
 namespace grseg::archive_balance {
 
-inline std::vector<ArchiveMoment> all_of(Archive& archive)
+inline std::vector<ArchiveFrame> all_of(Archive& archive)
 {
-  std::vector<ArchiveMoment> moments;
-  for (ArchiveMoment moment; archive.next(moment);) moments.push_back(moment);
-  return moments;
+  std::vector<ArchiveFrame> frames;
+  for (ArchiveFrame frame; archive.next(frame);) frames.push_back(frame);
+  return frames;
 }
 
 /// Entry of each grain, by its id.
@@ -38,25 +38,24 @@ inline double largest_force(const ArchiveContacts& contacts)
 }
 
 /// Sum of the contact forces on each grain.
-inline std::vector<Vec3> contact_forces(const ArchiveMoment& moment)
+inline std::vector<Vec3> contact_forces(const ArchiveFrame& frame)
 {
-  const auto entry = entries(moment.grains);
-  std::vector<Vec3> sum(moment.grains.size(), Vec3::Zero());
-  for (std::size_t c = 0; c < moment.contacts.size(); ++c) {
-    sum[entry.at(moment.contacts.i[c])] += moment.contacts.force[c];
-    if (!at_wall(moment.contacts, c))
-      sum[entry.at(moment.contacts.j[c])] -= moment.contacts.force[c];
+  const auto entry = entries(frame.grains);
+  std::vector<Vec3> sum(frame.grains.size(), Vec3::Zero());
+  for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+    sum[entry.at(frame.contacts.i[c])] += frame.contacts.force[c];
+    if (!at_wall(frame.contacts, c)) sum[entry.at(frame.contacts.j[c])] -= frame.contacts.force[c];
   }
   return sum;
 }
 
 /// Largest |contact forces + m g - force| of a grain that is not held, divided by the largest
 /// contact force or weight.
-inline double residual(const ArchiveMoment& moment, const Vec3& gravity)
+inline double residual(const ArchiveFrame& frame, const Vec3& gravity)
 {
-  const auto& grains = moment.grains;
-  const auto sum = contact_forces(moment);
-  double worst = 0, scale = largest_force(moment.contacts);
+  const auto& grains = frame.grains;
+  const auto sum = contact_forces(frame);
+  double worst = 0, scale = largest_force(frame.contacts);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!grains.fixed.empty() && grains.fixed[g]) continue;
     const Vec3 weight = grains.mass[g] * gravity;

@@ -119,7 +119,7 @@ TEST_F(Trajectory, AnInterruptedFrameIsInvisible)
   EXPECT_EQ(frame.contacts.force, three_grains::frame(1).contacts.force);
 }
 
-TEST_F(Trajectory, AWriterKilledAtAnyMomentLeavesWholeFrames)
+TEST_F(Trajectory, AWriterKilledAtAnyTimeLeavesWholeFrames)
 {
   for (const int frames_before_death : {1, 2, 7, 30}) {
     const pid_t child = fork();

@@ -9,7 +9,7 @@ import random
 from yade import pack
 from yade_export import Exporter
 
-GRAVITY, SIDE, EVERY, MOMENTS = 9.81, 0.06, 5000, 20
+GRAVITY, SIDE, EVERY, FRAMES = 9.81, 0.06, 5000, 20
 random.seed(3)
 O.materials.append(FrictMat(young=2e6, poisson=0.3, frictionAngle=0.5, density=2500))
 low, high = (0, 0, 0), (SIDE, SIDE, 0.5)
@@ -51,6 +51,6 @@ O.dt = 1e-5
 Exporter("box-grains.csv.gz", "box-contacts.csv.gz", kind=lambda body: 2 if body.shape.radius > 0.006 else 1).install(EVERY)
 walls = open("box-walls.csv", "w")
 O.engines = O.engines[:-2] + [PyRunner(command="weigh()", iterPeriod=EVERY)] + O.engines[-2:]
-O.run(EVERY * MOMENTS, True)
+O.run(EVERY * FRAMES, True)
 walls.close()
 print("grains", placed)

@@ -11,7 +11,7 @@ import random
 from yade import pack, utils
 from yade_export import Exporter
 
-LENGTH, WIDTH, HEIGHT, SLOPE, EVERY, MOMENTS = 8.0, 6.0, 40.0, math.radians(25), 2000, 6
+LENGTH, WIDTH, HEIGHT, SLOPE, EVERY, FRAMES = 8.0, 6.0, 40.0, math.radians(25), 2000, 6
 random.seed(1)
 O.periodic = True
 O.cell.setBox(LENGTH, WIDTH, HEIGHT)
@@ -44,5 +44,5 @@ O.run(20000, True)
 Exporter("chute-grains.csv.gz", "chute-contacts.csv.gz").install(EVERY)
 stress = open("chute-stress.csv", "w")
 O.engines = O.engines[:-1] + [PyRunner(command="measure()", iterPeriod=EVERY)] + O.engines[-1:]
-O.run(EVERY * MOMENTS, True)
+O.run(EVERY * FRAMES, True)
 stress.close()

@@ -124,20 +124,20 @@ class Invented : public Archive {
   }
   const ArchiveFacts& facts() const override { return facts_; }
   std::vector<std::string> remarks() const override { return {"at " + std::to_string(count_)}; }
-  bool next(ArchiveMoment& moment) override
+  bool next(ArchiveFrame& frame) override
   {
     if (++count_ > 2) throw FormatError("no third one");
-    moment = {};
-    moment.step = count_;
-    moment.low = {-1, -2, -3};
-    moment.periodic = {true, false, true};
-    moment.place = "here";
-    moment.grains.id = {7, 9};
-    moment.grains.position = {{1, 2, 3}, {4, 5, 6}};
-    moment.grains.image = {{1, 0, -1}, {0, 0, 0}};
-    moment.grains.missing = {"vz"};
-    moment.contacts.force = {{0, -1, 0.25}};
-    moment.questions = {{"a step", "--step DT", "none"}};
+    frame = {};
+    frame.step = count_;
+    frame.low = {-1, -2, -3};
+    frame.periodic = {true, false, true};
+    frame.place = "here";
+    frame.grains.id = {7, 9};
+    frame.grains.position = {{1, 2, 3}, {4, 5, 6}};
+    frame.grains.image = {{1, 0, -1}, {0, 0, 0}};
+    frame.grains.missing = {"vz"};
+    frame.contacts.force = {{0, -1, 0.25}};
+    frame.questions = {{"a step", "--step DT", "none"}};
     return true;
   }
 
@@ -154,23 +154,23 @@ TEST(ApartArchive, ArrivesWhole)
   EXPECT_FALSE(archive->facts().density.has_value());
   EXPECT_EQ(archive->facts().walls, (std::vector<std::string>{"floor", ""}));
   EXPECT_EQ(archive->facts().tolerance_reason, "why");
-  ArchiveMoment moment;
+  ArchiveFrame frame;
   for (const std::int64_t count : {1, 2}) {
-    ASSERT_TRUE(archive->next(moment));
-    EXPECT_EQ(moment.step, count);
-    EXPECT_FALSE(moment.time.has_value());
-    EXPECT_EQ(moment.low, Vec3(-1, -2, -3));
-    EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, false, true}));
-    EXPECT_EQ(moment.place, "here");
-    EXPECT_EQ(moment.grains.id, (std::vector<std::int64_t>{7, 9}));
-    EXPECT_EQ(moment.grains.position[1], Vec3(4, 5, 6));
-    EXPECT_EQ(moment.grains.image[0][2], -1);
-    EXPECT_EQ(moment.grains.missing, std::vector<std::string>{"vz"});
-    EXPECT_EQ(moment.contacts.force[0], Vec3(0, -1, 0.25));
-    EXPECT_EQ(moment.questions.at(0).option, "--step DT");
+    ASSERT_TRUE(archive->next(frame));
+    EXPECT_EQ(frame.step, count);
+    EXPECT_FALSE(frame.time.has_value());
+    EXPECT_EQ(frame.low, Vec3(-1, -2, -3));
+    EXPECT_EQ(frame.periodic, (std::array<bool, 3>{true, false, true}));
+    EXPECT_EQ(frame.place, "here");
+    EXPECT_EQ(frame.grains.id, (std::vector<std::int64_t>{7, 9}));
+    EXPECT_EQ(frame.grains.position[1], Vec3(4, 5, 6));
+    EXPECT_EQ(frame.grains.image[0][2], -1);
+    EXPECT_EQ(frame.grains.missing, std::vector<std::string>{"vz"});
+    EXPECT_EQ(frame.contacts.force[0], Vec3(0, -1, 0.25));
+    EXPECT_EQ(frame.questions.at(0).option, "--step DT");
     EXPECT_EQ(archive->remarks().at(0), "at " + std::to_string(count));
   }
-  EXPECT_THROW(archive->next(moment), FormatError);
+  EXPECT_THROW(archive->next(frame), FormatError);
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ std::string complaint_about(const std::string& path)
 std::string complaint_of(const std::string& format, const ArchiveFiles& files)
 {
   try {
-    ArchiveMoment moment;
-    while (open_archive(format, files)->next(moment)) {
+    ArchiveFrame frame;
+    while (open_archive(format, files)->next(frame)) {
     }
   } catch (const ToolError& error) {
     return error.what();

@@ -83,11 +83,11 @@ TEST_F(DamagedArchive, NotANumber)
   expect_refusal("a NaN", exit_content, "contacts.dump, line 22: 'nan' in column 4 (c_pl[1])");
 }
 
-TEST_F(DamagedArchive, AMomentTwiceWithOtherPositions)
+TEST_F(DamagedArchive, AFrameTwiceWithOtherPositions)
 {
   contacts += contacts_at(100);
   grains += block("ATOMS", 100, grain_columns, grain_rows(0.06));
-  expect_refusal("a moment twice, with other positions", exit_usage,
+  expect_refusal("a frame twice, with other positions", exit_usage,
                  "step 100 comes after 100, and its grains are not where they were the first time");
 }
 
@@ -139,7 +139,7 @@ TEST_F(DamagedArchive, AContactOfAnUnknownGrain)
                  "a contact names grain 5, which is not among the grains of this frame");
 }
 
-TEST_F(DamagedArchive, ThatEndsInAMomentIsImportedUpToItOnRequest)
+TEST_F(DamagedArchive, ThatEndsInAFrameIsImportedUpToItOnRequest)
 {
   grains.resize(grains.size() - 20);
   auto s = settings(folder, grains, contacts);
@@ -152,11 +152,11 @@ TEST_F(DamagedArchive, TruncatedAnywhereIsRefusedOrImportedWhole)
 {
   auto s = settings(folder, grains, contacts);
   s.overwrite = true;
-  const auto whole_moment = grains_at(0).size();
+  const auto whole_frame = grains_at(0).size();
   for (std::size_t size = 0; size < grains.size(); ++size) {
     folder.write("atoms.dump", grains.substr(0, size));
     const auto refused = refusal(s);
-    EXPECT_EQ(refused.code, size == whole_moment ? exit_done : exit_content)
+    EXPECT_EQ(refused.code, size == whole_frame ? exit_done : exit_content)
         << size << ": " << refused.sentence;
   }
 }

@@ -67,7 +67,7 @@ TEST_F(PeriodsOfAnArchive, AreUnknownFromWrappedPositionsAlone)
   EXPECT_EQ(images_of(grains(0, "x y"), grains(100, "x y")), "unknown");
 }
 
-TEST_F(PeriodsOfAnArchive, AreUnknownWhereTheFirstMomentDoesNotTell)
+TEST_F(PeriodsOfAnArchive, AreUnknownWhereTheFirstFrameDoesNotTell)
 {
   EXPECT_EQ(images_of(grains(0, "x y"), grains(100, "x y", " 3 0")), "unknown");
 }
@@ -79,7 +79,7 @@ TEST_F(PeriodsOfAnArchive, AreNotWordsOfACellWithoutAny)
       "");
 }
 
-TEST_F(PeriodsOfAnArchive, AreUnknownWhereOneMomentOfGrainsThatComeAndGoDoesNotTell)
+TEST_F(PeriodsOfAnArchive, AreUnknownWhereOneFrameOfGrainsThatComeAndGoDoesNotTell)
 {
   const auto alone = block("ATOMS", 0, grain_columns + " ix iy", {grain_rows()[0] + " 0 0"});
   const auto s = settings(folder, alone + grains(100, "x y"),

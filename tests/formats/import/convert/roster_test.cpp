@@ -190,9 +190,9 @@ TEST_F(ImportOfGrainsThatComeAndGo, AsksAboutFactsOnlyWhatAllGrainsLeaveOpen)
   EXPECT_EQ(refusal(s).sentence, "");
 }
 
-class RangeOfMoments : public ArchiveThatChanges {
+class RangeOfFrames : public ArchiveThatChanges {
  protected:
-  ImportSettings four_moments()
+  ImportSettings four_frames()
   {
     return settings(folder, grains_at(0) + grains_at(100) + grains_at(200) + grains_at(300),
                     contacts_at(0) + contacts_at(100) + contacts_at(200) + contacts_at(300));
@@ -200,7 +200,7 @@ class RangeOfMoments : public ArchiveThatChanges {
   std::vector<std::int64_t> steps_of(const std::optional<std::string>& begin,
                                      const std::optional<std::string>& end)
   {
-    auto s = four_moments();
+    auto s = four_frames();
     s.begin = begin;
     s.end = end;
     s.overwrite = true;
@@ -211,7 +211,7 @@ class RangeOfMoments : public ArchiveThatChanges {
 
 using Steps = std::vector<std::int64_t>;
 
-TEST_F(RangeOfMoments, IncludesItsBeginButNotItsEnd)
+TEST_F(RangeOfFrames, IncludesItsBeginButNotItsEnd)
 {
   EXPECT_EQ(steps_of("step:100", "step:200"), (Steps{100}));
   EXPECT_EQ(steps_of("step:101", std::nullopt), (Steps{200, 300}));
@@ -219,15 +219,15 @@ TEST_F(RangeOfMoments, IncludesItsBeginButNotItsEnd)
 }
 
 // 3 x 1e-5 x 100 differs from 0.003 in the last bit.
-TEST_F(RangeOfMoments, InTimesIsTheSameWhateverTheRounding)
+TEST_F(RangeOfFrames, InTimesIsTheSameWhateverTheRounding)
 {
   EXPECT_EQ(steps_of("0.001", "0.003"), (Steps{100, 200}));
   EXPECT_EQ(steps_of("0.0010001", "2.9e-3"), Steps{200});
 }
 
-TEST_F(RangeOfMoments, IsRecordedInTheFile)
+TEST_F(RangeOfFrames, IsRecordedInTheFile)
 {
-  auto s = four_moments();
+  auto s = four_frames();
   s.begin = "0.001";
   s.end = "step:200";
   import_archive(s, "");
@@ -237,9 +237,9 @@ TEST_F(RangeOfMoments, IsRecordedInTheFile)
   EXPECT_TRUE(mentions(parameters.text("import_remarks"), "--begin 0.001 --end step:200"));
 }
 
-TEST_F(RangeOfMoments, WithoutMomentsNamesTheRangeOfTheArchive)
+TEST_F(RangeOfFrames, WithoutFramesNamesTheRangeOfTheArchive)
 {
-  auto s = four_moments();
+  auto s = four_frames();
   s.begin = "1";
   EXPECT_EQ(refusal(s).sentence,
             "no frame lies in the range --begin 1: the archive has 4 frames "
@@ -252,9 +252,9 @@ TEST_F(RangeOfMoments, WithoutMomentsNamesTheRangeOfTheArchive)
                        "has 4 frames"));
 }
 
-TEST_F(RangeOfMoments, ThatIsNeitherATimeNorAStepIsRefused)
+TEST_F(RangeOfFrames, ThatIsNeitherATimeNorAStepIsRefused)
 {
-  auto s = four_moments();
+  auto s = four_frames();
   for (const char* text : {"step:1.5", "soon", "1s", "nan", ""}) {
     s.end = text;
     EXPECT_TRUE(
@@ -263,9 +263,9 @@ TEST_F(RangeOfMoments, ThatIsNeitherATimeNorAStepIsRefused)
   }
 }
 
-TEST_F(RangeOfMoments, InTimesNeedsTheLengthOfAStepWhereTheArchiveHasStepsOnly)
+TEST_F(RangeOfFrames, InTimesNeedsTheLengthOfAStepWhereTheArchiveHasStepsOnly)
 {
-  auto s = four_moments();
+  auto s = four_frames();
   s.step.reset();
   s.begin = "0.001";
   EXPECT_TRUE(mentions(refusal(s).sentence,

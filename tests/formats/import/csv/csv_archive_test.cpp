@@ -42,7 +42,7 @@ class Csv : public testing::Test {
     all.contacts = {(folder / "contacts.csv").string()};
     return all;
   }
-  std::vector<ArchiveMoment> read(const std::string& grains, const std::string& contacts) const
+  std::vector<ArchiveFrame> read(const std::string& grains, const std::string& contacts) const
   {
     return all_of(*csv_format.open(files(grains, contacts)));
   }
@@ -67,9 +67,9 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 void Csv::expect_the_same(const std::string& grains, const std::string& contacts) const
 {
-  const auto moments = read(grains, contacts);
-  ASSERT_EQ(moments.size(), 2u) << grains;
-  const auto& first = moments[0];
+  const auto frames = read(grains, contacts);
+  ASSERT_EQ(frames.size(), 2u) << grains;
+  const auto& first = frames[0];
   EXPECT_EQ(*first.time, 0.5);
   EXPECT_EQ(first.grains.id, (std::vector<std::int64_t>{7, 9}));
   EXPECT_EQ(first.grains.position[0], Vec3(0.1, 0.2, 0));
@@ -79,7 +79,7 @@ void Csv::expect_the_same(const std::string& grains, const std::string& contacts
   EXPECT_EQ(first.contacts.force[0], Vec3(0.25, -4, 0));
   EXPECT_EQ(first.contacts.i[0], 7);
   EXPECT_EQ(first.contacts.j[0], 9);
-  EXPECT_EQ(moments[1].grains.id, (std::vector<std::int64_t>{9, 7}));
+  EXPECT_EQ(frames[1].grains.id, (std::vector<std::int64_t>{9, 7}));
 }
 
 TEST_F(Csv, CommasSemicolonsTabsAndBlanksSeparateColumns)
@@ -97,7 +97,7 @@ TEST_F(Csv, ColumnsAreFoundByNameInAnyOrderAndSpelling)
       with(contact_table, "i,j", "id1,id2"));
 }
 
-TEST_F(Csv, MomentsAreMatchedByTime)
+TEST_F(Csv, FramesAreMatchedByTime)
 {
   const auto archive = csv_format.open(files(grain_table, with(contact_table, "0.5,", "0.55,")));
   ASSERT_EQ(all_of(*archive).size(), 1u);
@@ -106,9 +106,9 @@ TEST_F(Csv, MomentsAreMatchedByTime)
 
 TEST_F(Csv, PeriodIsGivenAboveTheNames)
 {
-  const auto moment = read("# periodic: x 0 0.35\n" + grain_table, contact_table).at(0);
-  EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, false, false}));
-  EXPECT_EQ(moment.high.x() - moment.low.x(), 0.35);
+  const auto frame = read("# periodic: x 0 0.35\n" + grain_table, contact_table).at(0);
+  EXPECT_EQ(frame.periodic, (std::array<bool, 3>{true, false, false}));
+  EXPECT_EQ(frame.high.x() - frame.low.x(), 0.35);
   EXPECT_FALSE(read(grain_table, contact_table).at(0).periodic[0]);
   EXPECT_NE(complaint("# periodic: x 1 0\n" + grain_table, contact_table).find("not of the form"),
             std::string::npos);
@@ -176,14 +176,14 @@ TEST_F(CsvPerStep, WindowsTablesHaveAMarkSemicolonsCommasInNumbersAndNoLastLineE
           mark + "id;x;y;radius;vx;vy\r\n7;0,1;0,2;0,05;1;2\r\n9;0,1;0,105;0,05;0;-1,5e-3");
     write(fmt::format("contacts_{:06}.csv", step), mark + "i;j;fx;fy\r\n7;9;0,25;-4");
   }
-  const auto moments = all_of(*csv_format.open(named("grains_*.csv", "contacts_*.csv")));
-  ASSERT_EQ(moments.size(), 2u);
-  EXPECT_EQ(*moments[0].step, 900);
-  EXPECT_EQ(*moments[1].step, 1000);
-  EXPECT_FALSE(moments[0].time);
-  EXPECT_EQ(moments[1].grains.position[1], Vec3(0.1, 0.105, 0));
-  EXPECT_EQ(moments[1].grains.velocity[1].y(), -1.5e-3);
-  EXPECT_EQ(moments[1].contacts.force[0], Vec3(0.25, -4, 0));
+  const auto frames = all_of(*csv_format.open(named("grains_*.csv", "contacts_*.csv")));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(*frames[0].step, 900);
+  EXPECT_EQ(*frames[1].step, 1000);
+  EXPECT_FALSE(frames[0].time);
+  EXPECT_EQ(frames[1].grains.position[1], Vec3(0.1, 0.105, 0));
+  EXPECT_EQ(frames[1].grains.velocity[1].y(), -1.5e-3);
+  EXPECT_EQ(frames[1].contacts.force[0], Vec3(0.25, -4, 0));
 }
 
 TEST_F(CsvPerStep, TheStepIsWhatTheStarStandsForWhateverDigitsElseTheNameHas)
@@ -192,10 +192,10 @@ TEST_F(CsvPerStep, TheStepIsWhatTheStarStandsForWhateverDigitsElseTheNameHas)
     write(fmt::format("mu0.5_{}_v2.csv", step), "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
     write(fmt::format("c{}.csv", step), "i,j,fx,fy\n7,9,0,0\n");
   }
-  const auto moments = all_of(*csv_format.open(named("mu0.5_*_v2.csv", "c*.csv")));
-  ASSERT_EQ(moments.size(), 3u);
+  const auto frames = all_of(*csv_format.open(named("mu0.5_*_v2.csv", "c*.csv")));
+  ASSERT_EQ(frames.size(), 3u);
   std::vector<std::int64_t> steps;
-  for (const auto& moment : moments) steps.push_back(*moment.step);
+  for (const auto& frame : frames) steps.push_back(*frame.step);
   EXPECT_EQ(steps, (std::vector<std::int64_t>{9, 10, 11}));
 }
 
@@ -205,10 +205,10 @@ TEST_F(CsvPerStep, ANumberWithAPointIsATime)
     write(fmt::format("g{}.csv", time), "id,x,y,d,vx,vy\n7,0,0,1,0,0\n");
     write(fmt::format("c{}.csv", time), "i,j,fx,fy\n7,9,0,0\n");
   }
-  const auto moments = all_of(*csv_format.open(named("g*.csv", "c*.csv")));
-  ASSERT_EQ(moments.size(), 2u);
-  EXPECT_EQ(*moments[1].time, 0.75);
-  EXPECT_FALSE(moments[1].step);
+  const auto frames = all_of(*csv_format.open(named("g*.csv", "c*.csv")));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(*frames[1].time, 0.75);
+  EXPECT_FALSE(frames[1].step);
 }
 
 TEST_F(CsvPerStep, TimesAndStepsDoNotMatchAndNamesWithoutEitherAreRefused)
@@ -233,23 +233,23 @@ TEST_F(CsvPerStep, FilesInUtf16AreNamed)
 
 TEST_F(Csv, IndexColumnsQuotationMarksAndTruthValuesAreThoseOfPandas)
 {
-  const auto moments = read(
+  const auto frames = read(
       ",\"time\",\"id\",\"name\",\"x\",\"y\",\"radius\",\"vx\",\"vy\",\"omega\",fixed\n"
       "0,0.5,7,\"a, b\",0.1,0.2,0.05,1,2,-3,False\n1,0.5,9,,0.1,0.105,0.05,0,0,0,True\n",
       contact_table);
-  ASSERT_EQ(moments.size(), 1u);
-  EXPECT_EQ(moments[0].grains.fixed, (std::vector<std::uint8_t>{0, 1}));
-  EXPECT_EQ(moments[0].grains.position[1], Vec3(0.1, 0.105, 0));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].grains.fixed, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(frames[0].grains.position[1], Vec3(0.1, 0.105, 0));
 }
 
 TEST_F(Csv, TextAndUnitsInBracketsMayStandBesideTheNumbers)
 {
-  const auto moments = read(
+  const auto frames = read(
       "t [s]\tID\tmaterial\tx (m)\ty (m)\tradius (m)\tvx\tvy\tomega\n"
       "0.5\t7\tglass bead\t0.1\t0.2\t0.05\t1\t2\t-3\n0.5\t9\t\t0.1\t0.105\t0.05\t0\t0\t0\n",
       contact_table);
-  ASSERT_EQ(moments.size(), 1u);
-  EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].grains.position[0], Vec3(0.1, 0.2, 0));
 }
 
 TEST_F(Csv, AMapGivesOtherNamesAndLeavesColumnsOut)
@@ -260,13 +260,13 @@ TEST_F(Csv, AMapGivesOtherNamesAndLeavesColumnsOut)
       "Cycle,particle1,particle2,Force(x),Force(y),t\n100,7,9,0.25,-4,text\n");
   all.map = {"Ball ID=id,pos_x=x,pos_y=y,velx=vx",
              "vely=vy,particle1=i,particle2=j,fx=,t=", "Force(x)=fx,Force(y)=fy"};
-  const auto moments = all_of(*csv_format.open(all));
-  ASSERT_EQ(moments.size(), 1u);
-  EXPECT_EQ(*moments[0].step, 100);
-  EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
-  EXPECT_EQ(moments[0].grains.velocity[0], Vec3(1, 2, 0));
-  EXPECT_TRUE(moments[0].grains.force.empty());
-  EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+  const auto frames = all_of(*csv_format.open(all));
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(*frames[0].step, 100);
+  EXPECT_EQ(frames[0].grains.position[0], Vec3(0.1, 0.2, 0));
+  EXPECT_EQ(frames[0].grains.velocity[0], Vec3(1, 2, 0));
+  EXPECT_TRUE(frames[0].grains.force.empty());
+  EXPECT_EQ(frames[0].contacts.force[0], Vec3(0.25, -4, 0));
 }
 
 TEST_F(Csv, AMapThatFitsNothingIsRefused)
@@ -306,10 +306,10 @@ TEST_F(Csv, ManyFilesWithTheirTimesMayEachHaveNamesOrNot)
   std::ofstream(folder / "part2.csv") << "0.5,9,0.1,0.105,0.05,0,0,0\n";
   std::ofstream(folder / "part3.csv") << "time,id,y,x,radius,vx,vy\n0.6,9,0.105,0.1,0.05,0,0\n";
   all.grains = {(folder / "part*.csv").string()};
-  const auto moments = all_of(*csv_format.open(all));
-  ASSERT_EQ(moments.size(), 2u);
-  EXPECT_EQ(moments[0].grains.size(), 2u);
-  EXPECT_EQ(moments[1].grains.position[0], Vec3(0.1, 0.105, 0));
+  const auto frames = all_of(*csv_format.open(all));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].grains.size(), 2u);
+  EXPECT_EQ(frames[1].grains.position[0], Vec3(0.1, 0.105, 0));
 }
 
 TEST_F(Csv, CommentsAboveTheNamesStateFactsOfTheRun)
@@ -346,27 +346,27 @@ TEST_F(Csv, NumbersMayBeThoseOfFortran)
   const auto with_d = [](std::string table) {
     return with(with(table, "0.5,", "5.0D-01,"), "0.05,", "0.05D0,");
   };
-  const auto moments = read("# step: 1.0D-05\n# periodic: x 0.0D0 0.35D0\n" + with_d(grain_table),
-                            with(with_d(contact_table), "0.25", "2.5-001"));
-  ASSERT_EQ(moments.size(), 2u);
-  EXPECT_EQ(*moments[0].time, 0.5);
-  EXPECT_EQ(moments[0].high.x(), 0.35);
-  EXPECT_EQ(moments[0].grains.radius, (std::vector<double>{0.05, 0.05}));
-  EXPECT_DOUBLE_EQ(moments[0].contacts.force[0].x(), 0.25);
+  const auto frames = read("# step: 1.0D-05\n# periodic: x 0.0D0 0.35D0\n" + with_d(grain_table),
+                           with(with_d(contact_table), "0.25", "2.5-001"));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(*frames[0].time, 0.5);
+  EXPECT_EQ(frames[0].high.x(), 0.35);
+  EXPECT_EQ(frames[0].grains.radius, (std::vector<double>{0.05, 0.05}));
+  EXPECT_DOUBLE_EQ(frames[0].contacts.force[0].x(), 0.25);
 }
 
 TEST_F(Csv, IdsMayBeBeyondTheIntegersOfMostPrograms)
 {
-  const auto moments = read(with(grain_table, ",7,0.1", ",4294967303,0.1"),
-                            with(contact_table, "7,9", "4294967303,9"));
-  EXPECT_EQ(moments.at(0).grains.id[0], 4294967303);
-  EXPECT_EQ(moments.at(0).contacts.i[0], 4294967303);
+  const auto frames = read(with(grain_table, ",7,0.1", ",4294967303,0.1"),
+                           with(contact_table, "7,9", "4294967303,9"));
+  EXPECT_EQ(frames.at(0).grains.id[0], 4294967303);
+  EXPECT_EQ(frames.at(0).contacts.i[0], 4294967303);
   EXPECT_NE(
       complaint(with(grain_table, ",7,0.1", ",1e16,0.1"), contact_table).find("1e+16 is not an id"),
       std::string::npos);
 }
 
-TEST_F(Csv, MomentsThatDoNotMatchAreNamed)
+TEST_F(Csv, FramesThatDoNotMatchAreNamed)
 {
   const auto said = complaint(grain_table, with(contact_table, "0.5,7", "0.500003,7"));
   EXPECT_EQ(said, "no complaint") << "those of 0.6 match";
@@ -413,10 +413,10 @@ TEST_F(Csv, TypesMayBeWords)
     }
     return table;
   };
-  const auto grains_of = [&](const std::string& types, std::size_t moment) {
+  const auto grains_of = [&](const std::string& types, std::size_t frame) {
     auto all = files(typed(types), contact_table);
     all.map = {"ParticleType=type"};
-    return all_of(*csv_format.open(all)).at(moment).grains;
+    return all_of(*csv_format.open(all)).at(frame).grains;
   };
   const auto words = grains_of("coarse fine coarse fine", 1);
   EXPECT_EQ(words.type, (std::vector<std::int32_t>{0, 1}));
@@ -435,8 +435,8 @@ TEST_F(Csv, TypesMayBeWords)
 class CsvWithoutNames : public Csv {
  protected:
   const std::string contact_rows = contact_table.substr(contact_table.find('\n') + 1);
-  std::vector<ArchiveMoment> mapped(const std::vector<std::string>& map,
-                                    const std::string& separator = ",") const
+  std::vector<ArchiveFrame> mapped(const std::vector<std::string>& map,
+                                   const std::string& separator = ",") const
   {
     auto all = files(with(grain_rows, ",", separator), with(contact_rows, ",", separator));
     all.map = map;
@@ -447,23 +447,23 @@ class CsvWithoutNames : public Csv {
 TEST_F(CsvWithoutNames, ColumnsAreNamedByNumber)
 {
   for (const char* separator : {",", ";", "\t", " "}) {
-    const auto moments = mapped(
+    const auto frames = mapped(
         {"1=time,2=id,3=x,4=y,5=radius,6=vx,7=vy,8=omega", "1=time,2=i,3=j,4=fx,5=fy,6=overlap"},
         separator);
-    ASSERT_EQ(moments.size(), 2u);
-    EXPECT_EQ(moments[0].grains.size(), 2u) << "the first line is a row";
-    EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
-    EXPECT_TRUE(moments[0].grains.force.empty()) << "column 4 is fx in the other table";
-    EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[0].grains.size(), 2u) << "the first line is a row";
+    EXPECT_EQ(frames[0].grains.position[0], Vec3(0.1, 0.2, 0));
+    EXPECT_TRUE(frames[0].grains.force.empty()) << "column 4 is fx in the other table";
+    EXPECT_EQ(frames[0].contacts.force[0], Vec3(0.25, -4, 0));
   }
 }
 
 TEST_F(CsvWithoutNames, OneListForBothTablesIsDividedByTheNamesThatOneAloneHas)
 {
-  const auto moments = mapped({"1=time,2=id,3=x,4=y,5=radius,6=vx,7=vy,8=omega,2=i,3=j,4=fx,5=fy"});
-  ASSERT_EQ(moments.size(), 2u);
-  EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
-  EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+  const auto frames = mapped({"1=time,2=id,3=x,4=y,5=radius,6=vx,7=vy,8=omega,2=i,3=j,4=fx,5=fy"});
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].grains.position[0], Vec3(0.1, 0.2, 0));
+  EXPECT_EQ(frames[0].contacts.force[0], Vec3(0.25, -4, 0));
 }
 
 TEST_F(CsvWithoutNames, ArePointedOutUntilTheirColumnsAreNamed)
@@ -483,11 +483,11 @@ TEST_F(CsvWithoutNames, ArePointedOutUntilTheirColumnsAreNamed)
 TEST_F(CsvWithoutNames, MayHaveThemInTheCommentAbove)
 {
   for (const char* sign : {"# ", "#", "% "}) {
-    const auto moments = read(sign + with(grain_table, ",", " "),
-                              "# by hand\n" + (sign + with(contact_table, ",", " ")));
-    ASSERT_EQ(moments.size(), 2u) << sign;
-    EXPECT_EQ(moments[0].grains.position[0], Vec3(0.1, 0.2, 0));
-    EXPECT_EQ(moments[0].contacts.force[0], Vec3(0.25, -4, 0));
+    const auto frames = read(sign + with(grain_table, ",", " "),
+                             "# by hand\n" + (sign + with(contact_table, ",", " ")));
+    ASSERT_EQ(frames.size(), 2u) << sign;
+    EXPECT_EQ(frames[0].grains.position[0], Vec3(0.1, 0.2, 0));
+    EXPECT_EQ(frames[0].contacts.force[0], Vec3(0.25, -4, 0));
   }
 }
 
@@ -498,8 +498,8 @@ TEST_F(Csv, TheNumberOfARowMayBeTheId)
   const auto ids = [&](const std::string& map) {
     all.map = {map};
     std::vector<std::int64_t> found;
-    for (const auto& moment : all_of(*csv_format.open(all)))
-      found.insert(found.end(), moment.grains.id.begin(), moment.grains.id.end());
+    for (const auto& frame : all_of(*csv_format.open(all)))
+      found.insert(found.end(), frame.grains.id.begin(), frame.grains.id.end());
     return found;
   };
   EXPECT_EQ(ids("row=id"), (std::vector<std::int64_t>{0, 1, 0, 1}));

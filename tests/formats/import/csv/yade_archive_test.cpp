@@ -40,64 +40,64 @@ TEST(YadeArchive, StressOfAPeriodicChuteIsYadesOwn)
 {
   const auto own = rows_of("chute-stress.csv", 9);
   const auto archive = open("chute");
-  std::size_t moments = 0;
-  for (const auto& moment : all_of(*archive)) {
+  std::size_t frames = 0;
+  for (const auto& frame : all_of(*archive)) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (std::size_t c = 0; c < moment.contacts.size(); ++c)
-      sum += moment.contacts.force[c] * moment.contacts.branch[c].transpose();
-    const auto& row = own.at(*moment.time);
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c)
+      sum += frame.contacts.force[c] * frame.contacts.branch[c].transpose();
+    const auto& row = own.at(*frame.time);
     Eigen::Matrix3d yades;
     yades << row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8];
     // YADE's stress is for its cell of 8 x 6 x 40, tension positive.
     EXPECT_LT((sum / (8 * 6 * 40) + yades).norm(), 1e-13 * yades.norm());
-    EXPECT_LT(residual(moment, *archive->facts().gravity), 1e-13);
-    EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, true, false}));
-    ++moments;
+    EXPECT_LT(residual(frame, *archive->facts().gravity), 1e-13);
+    EXPECT_EQ(frame.periodic, (std::array<bool, 3>{true, true, false}));
+    ++frames;
   }
-  EXPECT_EQ(moments, 6u);
+  EXPECT_EQ(frames, 6u);
 }
 
 TEST(YadeArchive, BoundsOfABoxAreWallsWithTheForcesThatYadeSums)
 {
   const auto own = rows_of("box-walls.csv", 21);
   const auto archive = open("box");
-  const auto moments = all_of(*archive);
+  const auto frames = all_of(*archive);
   const double g = archive->facts().gravity->norm();
   std::set<std::size_t> counts;
-  for (const auto& moment : moments) {
-    const auto& contacts = moment.contacts;
+  for (const auto& frame : frames) {
+    const auto& contacts = frame.contacts;
     std::vector<Vec3> felt(7, Vec3::Zero());  // forces on the floor, two boxes and four facets
     for (std::size_t c = 0; c < contacts.size(); ++c)
       if (at_wall(contacts, c))
         felt.at(static_cast<std::size_t>(contacts.wall[c])) -= contacts.force[c];
-    const auto& row = own.at(*moment.time);
+    const auto& row = own.at(*frame.time);
     for (std::size_t w = 0; w < 7; ++w)
       EXPECT_LT((felt[w] - Vec3(row[3 * w], row[3 * w + 1], row[3 * w + 2])).norm(), 1e-13);
-    EXPECT_LT(residual(moment, *archive->facts().gravity), 1e-13);
-    counts.insert(moment.grains.size());
+    EXPECT_LT(residual(frame, *archive->facts().gravity), 1e-13);
+    counts.insert(frame.grains.size());
   }
   EXPECT_GT(counts.size(), 3u) << "it is being filled";
 
   double weight = 0, carried = 0;  // at the end it rests, except for small oscillations
-  for (const double mass : moments.back().grains.mass) weight += mass * g;
-  for (std::size_t c = 0; c < moments.back().contacts.size(); ++c)
-    if (at_wall(moments.back().contacts, c)) carried += moments.back().contacts.force[c].z();
+  for (const double mass : frames.back().grains.mass) weight += mass * g;
+  for (std::size_t c = 0; c < frames.back().contacts.size(); ++c)
+    if (at_wall(frames.back().contacts, c)) carried += frames.back().contacts.force[c].z();
   EXPECT_NEAR(carried / weight, 1, 0.01);
 }
 
 TEST(YadeArchive, BranchesAtWallsEndOnThem)
 {
-  for (const auto& moment : all_of(*open("box"))) {
-    const auto entry = entries(moment.grains);
-    for (std::size_t c = 0; c < moment.contacts.size(); ++c) {
-      if (!at_wall(moment.contacts, c)) continue;
-      const auto& contacts = moment.contacts;
+  for (const auto& frame : all_of(*open("box"))) {
+    const auto entry = entries(frame.grains);
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+      if (!at_wall(frame.contacts, c)) continue;
+      const auto& contacts = frame.contacts;
       const auto i = entry.at(contacts.i[c]);
-      const Vec3 point = moment.grains.position[i] - contacts.branch[c];
+      const Vec3 point = frame.grains.position[i] - contacts.branch[c];
       const double away[] = {point.z(), point.x(),        point.x() - 0.06, point.y(),
                              point.y(), point.y() - 0.06, point.y() - 0.06};
       EXPECT_NEAR(away[contacts.wall[c]], 0, 1e-15);
-      EXPECT_NEAR(contacts.branch[c].norm(), moment.grains.radius[i] - contacts.overlap[c], 1e-15);
+      EXPECT_NEAR(contacts.branch[c].norm(), frame.grains.radius[i] - contacts.overlap[c], 1e-15);
     }
   }
 }

@@ -9,27 +9,27 @@ namespace {
 
 using lammps_text::mentions;
 
-ArchiveMoment moment_of(const std::vector<Vec3>& positions)
+ArchiveFrame frame_of(const std::vector<Vec3>& positions)
 {
-  ArchiveMoment moment;
-  moment.place = "step 7";
+  ArchiveFrame frame;
+  frame.place = "step 7";
   for (const auto& x : positions) {
-    moment.grains.id.push_back(static_cast<std::int64_t>(moment.grains.id.size()));
-    moment.grains.position.push_back(x);
-    moment.grains.radius.push_back(0.5);
+    frame.grains.id.push_back(static_cast<std::int64_t>(frame.grains.id.size()));
+    frame.grains.position.push_back(x);
+    frame.grains.radius.push_back(0.5);
   }
-  return moment;
+  return frame;
 }
 
-const auto in_x_y = moment_of({{0, 0, 3}, {1, 0, 3.04}, {0, 1, 3}});
-const auto in_x_z = moment_of({{0, 3, 0}, {1, 3, 0}, {0, 3, 1}});
-const auto in_space = moment_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+const auto in_x_y = frame_of({{0, 0, 3}, {1, 0, 3.04}, {0, 1, 3}});
+const auto in_x_z = frame_of({{0, 3, 0}, {1, 3, 0}, {0, 3, 1}});
+const auto in_space = frame_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
 
-std::string complaint(const ArchiveMoment& moment, const std::string& axes, bool discs,
+std::string complaint(const ArchiveFrame& frame, const std::string& axes, bool discs,
                       std::optional<int> asked = {})
 {
   try {
-    return fmt::format("dimension {}", dimension_of(moment, axes, discs, asked));
+    return fmt::format("dimension {}", dimension_of(frame, axes, discs, asked));
   } catch (const UsageError& error) {
     return error.what();
   }

@@ -8,12 +8,12 @@ namespace {
 
 /// Three grains of mass 2 in one column along y. The lowest, of type 3, is held; the upper ones
 /// rest, or fall, under the gravity (1, -4, 0).
-ArchiveMoment column(const Vec3& acceleration)
+ArchiveFrame column(const Vec3& acceleration)
 {
   const Vec3 gravity(1, -4, 0);
   constexpr double mass = 2;
-  ArchiveMoment moment;
-  auto& grains = moment.grains;
+  ArchiveFrame frame;
+  auto& grains = frame.grains;
   grains.id = {11, 12, 13};
   grains.type = {3, 1, 1};
   grains.radius = {0.5, 0.5, 0.5};
@@ -22,11 +22,11 @@ ArchiveMoment column(const Vec3& acceleration)
   grains.velocity = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0, 0}};
   const Vec3 force = mass * acceleration, carried = force - mass * gravity;
   grains.force = {{7, 7, 7}, force, force};
-  auto& contacts = moment.contacts;
+  auto& contacts = frame.contacts;
   contacts.i = {12, 12};
   contacts.j = {11, 13};
   contacts.force = {2 * carried, -carried};
-  return moment;
+  return frame;
 }
 
 const std::vector<double> masses{2, 2, 2};
@@ -34,8 +34,8 @@ const std::vector<double> masses{2, 2, 2};
 TEST(Proposals, GravityIsWhatContactsDoNotExplainOfTheForcesOnMovingGrains)
 {
   for (const Vec3& acceleration : {Vec3(0, 0, 0), Vec3(0.3, 2, -1)}) {
-    const auto moment = column(acceleration);
-    const auto gravity = suggested_gravity(moment, masses, resting_grains(moment.grains, nullptr));
+    const auto frame = column(acceleration);
+    const auto gravity = suggested_gravity(frame, masses, resting_grains(frame.grains, nullptr));
     ASSERT_TRUE(gravity);
     EXPECT_NEAR((*gravity - Vec3(1, -4, 0)).norm(), 0, 1e-14);
     EXPECT_EQ(gravity_option(*gravity), "1,-4,0");
@@ -44,14 +44,14 @@ TEST(Proposals, GravityIsWhatContactsDoNotExplainOfTheForcesOnMovingGrains)
 
 TEST(Proposals, GravityIsNotKnownWithoutForcesOnGrainsMassesOrTheMeaningOfColumns)
 {
-  auto moment = column({0, 0, 0});
-  EXPECT_FALSE(suggested_gravity(moment, {}, {}));
-  moment.grains.force.clear();
-  EXPECT_FALSE(suggested_gravity(moment, masses, {}));
-  moment = column({0, 0, 0});
-  moment.contacts = {};
-  moment.questions.push_back({"what the 5 columns mean", "--columns MAP", ""});
-  EXPECT_FALSE(suggested_gravity(moment, masses, {}));
+  auto frame = column({0, 0, 0});
+  EXPECT_FALSE(suggested_gravity(frame, {}, {}));
+  frame.grains.force.clear();
+  EXPECT_FALSE(suggested_gravity(frame, masses, {}));
+  frame = column({0, 0, 0});
+  frame.contacts = {};
+  frame.questions.push_back({"what the 5 columns mean", "--columns MAP", ""});
+  EXPECT_FALSE(suggested_gravity(frame, masses, {}));
 }
 
 TEST(Proposals, TheBaseIsWhatNeverMovesWhileOtherGrainsDo)
@@ -81,30 +81,30 @@ TEST(Proposals, TheBaseIsNotKnownWhereNothingMoves)
 
 TEST(Proposals, TheNormalOfAFlowInSpaceIsTheAxisNearestToGravity)
 {
-  ArchiveMoment moment;
-  auto& grains = moment.grains;
+  ArchiveFrame frame;
+  auto& grains = frame.grains;
   grains.id = {1, 2, 3, 4};
   grains.radius = {0.5, 0.5, 0.5, 0.5};
   grains.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  EXPECT_FALSE(question_of_axes(moment, false, Vec3(3, -9, 0)));
-  EXPECT_EQ(question_of_axes(moment, false, Vec3(3, 0, -9))->option, "--axes xz");
-  EXPECT_EQ(question_of_axes(moment, false, Vec3(-9, 3, 0))->option, "--axes yx");
-  EXPECT_FALSE(question_of_axes(moment, false, std::nullopt));
-  moment.periodic = {true, true, false};
-  EXPECT_EQ(question_of_axes(moment, false, std::nullopt)->option, "--axes xz");
+  EXPECT_FALSE(question_of_axes(frame, false, Vec3(3, -9, 0)));
+  EXPECT_EQ(question_of_axes(frame, false, Vec3(3, 0, -9))->option, "--axes xz");
+  EXPECT_EQ(question_of_axes(frame, false, Vec3(-9, 3, 0))->option, "--axes yx");
+  EXPECT_FALSE(question_of_axes(frame, false, std::nullopt));
+  frame.periodic = {true, true, false};
+  EXPECT_EQ(question_of_axes(frame, false, std::nullopt)->option, "--axes xz");
 }
 
 TEST(Proposals, TheAxesOfAPlaneFlowAreThoseOfItsPlane)
 {
-  ArchiveMoment moment;
-  auto& grains = moment.grains;
+  ArchiveFrame frame;
+  auto& grains = frame.grains;
   grains.id = {1, 2, 3};
   grains.radius = {0.5, 0.5, 0.5};
   grains.position = {{0, 3, 0}, {1, 3, 0}, {0, 3, 1}};
-  EXPECT_EQ(question_of_axes(moment, false, std::nullopt)->option, "--axes xz");
-  EXPECT_FALSE(question_of_axes(moment, true, std::nullopt));
+  EXPECT_EQ(question_of_axes(frame, false, std::nullopt)->option, "--axes xz");
+  EXPECT_FALSE(question_of_axes(frame, true, std::nullopt));
   for (auto& x : grains.position) std::swap(x.y(), x.z());
-  EXPECT_FALSE(question_of_axes(moment, false, std::nullopt));
+  EXPECT_FALSE(question_of_axes(frame, false, std::nullopt));
 }
 
 }  // namespace

@@ -29,15 +29,15 @@ TEST(ToldCell, OfAnotherFormIsRefused)
 
 TEST(ToldCell, ReplacesTheExtentOfTheGrainsButNoPeriodOfTheArchive)
 {
-  ArchiveMoment moment;
-  moment.cell[0] = CellSource::grains;
-  moment.high.x() = 0.1;
-  tell(parse_cells({"x:0:2"})[0], moment);
-  EXPECT_EQ(moment.high.x(), 2);
-  EXPECT_EQ(moment.cell[0], CellSource::told);
-  moment.periodic[0] = true;
+  ArchiveFrame frame;
+  frame.cell[0] = CellSource::grains;
+  frame.high.x() = 0.1;
+  tell(parse_cells({"x:0:2"})[0], frame);
+  EXPECT_EQ(frame.high.x(), 2);
+  EXPECT_EQ(frame.cell[0], CellSource::told);
+  frame.periodic[0] = true;
   try {
-    tell(parse_cells({"x:0:3:periodic"})[0], moment);
+    tell(parse_cells({"x:0:3:periodic"})[0], frame);
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_TRUE(mentions(error.what(), "the archive states x:0:2:periodic"));

@@ -258,7 +258,7 @@ TEST_F(Lammps, TimesThatGoBackAreRefused)
   EXPECT_EQ(folder.files(), 2u);
 }
 
-TEST_F(Lammps, MomentsAreMatchedByStepAndTimedByIt)
+TEST_F(Lammps, FramesAreMatchedByStepAndTimedByIt)
 {
   const auto s = settings(folder, grains_at(0) + grains_at(100) + grains_at(300),
                           contacts_at(50) + contacts_at(100) + contacts_at(200) + contacts_at(300));

@@ -149,9 +149,9 @@ TEST_F(Liggghts, EverySelectionOfColumnsIsTheSameContacts)
 TEST_F(Liggghts, GrainsBalanceWithinTheErrorOfReevaluatedForces)
 {
   double worst = 0;
-  for (const auto& moment : all_of(*liggghts_format.open(files("contacts-full35.dump")))) {
-    auto mobile = moment;
-    for (const auto type : moment.grains.type) mobile.grains.fixed.push_back(type == 3);
+  for (const auto& frame : all_of(*liggghts_format.open(files("contacts-full35.dump")))) {
+    auto mobile = frame;
+    for (const auto type : frame.grains.type) mobile.grains.fixed.push_back(type == 3);
     worst = std::max(worst, residual(mobile, pull));
   }
   EXPECT_LT(worst, 0.007);
@@ -192,11 +192,11 @@ TEST_F(Liggghts, AWrongReadingIsRefusedAndTheRightOneNamed)
 TEST_F(Liggghts, AnUnknownNumberOfColumnsNeedsAMapping)
 {
   const auto archive = liggghts_format.open(files("contacts-part.dump"));
-  ArchiveMoment moment;
-  ASSERT_TRUE(archive->next(moment));
-  ASSERT_EQ(moment.questions.size(), 1u);
-  EXPECT_EQ(moment.questions[0].option, "--columns MAP");
-  EXPECT_EQ(moment.contacts.size(), 0u);
+  ArchiveFrame frame;
+  ASSERT_TRUE(archive->next(frame));
+  ASSERT_EQ(frame.questions.size(), 1u);
+  EXPECT_EQ(frame.questions[0].option, "--columns MAP");
+  EXPECT_EQ(frame.contacts.size(), 0u);
 }
 
 TEST_F(Liggghts, NamesOfColumnsThatDoNotFitTheRowsAreNotAskedForAMapping)
@@ -208,9 +208,9 @@ TEST_F(Liggghts, NamesOfColumnsThatDoNotFitTheRowsAreNotAskedForAMapping)
   std::ofstream(damaged) << text;
   auto archive = files("contacts-full35.dump");
   archive.contacts = {damaged};
-  ArchiveMoment moment;
+  ArchiveFrame frame;
   try {
-    liggghts_format.open(archive)->next(moment);
+    liggghts_format.open(archive)->next(frame);
     ADD_FAILURE() << "34 names and 35 numbers";
   } catch (const FormatError& error) {
     EXPECT_EQ(error.what(), damaged + ", line 10: a row of 35 columns, but the header names 34");
@@ -262,9 +262,9 @@ TEST_F(Liggghts, NamesOfColumnsChooseAmongTheKnownOnes)
     all.contacts = {(folder / "named.dump").string()};
     std::ofstream(all.contacts[0]) << renamed;
     const auto archive = liggghts_format.open(all);
-    ArchiveMoment moment;
-    EXPECT_TRUE(archive->next(moment));
-    EXPECT_TRUE(moment.questions.empty());
+    ArchiveFrame frame;
+    EXPECT_TRUE(archive->next(frame));
+    EXPECT_TRUE(frame.questions.empty());
     return archive->columns();
   };
   const std::string rest = "fnx fny fnz ftx fty ftz tx ty tz a b c h1 h2 h3 area delta";

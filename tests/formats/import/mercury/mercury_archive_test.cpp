@@ -100,11 +100,11 @@ void expect_contacts(const ContactList<2>& meant, const ArchiveContacts& read,
 
 void Mercury::expect_frames(const ArchiveFiles& all, bool with_spin) const
 {
-  const auto moments = all_of(*mercury_format.open(all));
-  ASSERT_EQ(moments.size(), frames.size());
+  const auto raw = all_of(*mercury_format.open(all));
+  ASSERT_EQ(raw.size(), frames.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    const auto& grains = moments[k].grains;
-    EXPECT_NEAR(*moments[k].time, frames[k].time, 1e-8);
+    const auto& grains = raw[k].grains;
+    EXPECT_NEAR(*raw[k].time, frames[k].time, 1e-8);
     ASSERT_EQ(grains.size(), run.grains().size());
     for (std::size_t g = 0; g < grains.size(); ++g) {
       EXPECT_EQ(grains.id[g], static_cast<std::int64_t>(g));
@@ -115,7 +115,7 @@ void Mercury::expect_frames(const ArchiveFiles& all, bool with_spin) const
       EXPECT_NEAR(grains.angular_velocity[g].z(), spin, 1e-7);
       EXPECT_NEAR(grains.radius[g], run.grains().radius[g], 1e-11);
     }
-    expect_contacts(frames[k].contacts, moments[k].contacts, std::to_string(k));
+    expect_contacts(frames[k].contacts, raw[k].contacts, std::to_string(k));
   }
 }
 
@@ -185,18 +185,18 @@ TEST_F(Mercury, WallRowsHaveTheOppositeSign)
 TEST_F(Mercury, RestartGivesMassesFixedGrainsAndThePeriod)
 {
   const auto archive = mercury_format.open(files({}));
-  const auto moment = all_of(*archive).front();
+  const auto raw = all_of(*archive).front();
   const auto& facts = archive->facts();
   EXPECT_DOUBLE_EQ(*facts.step, run.step());
   EXPECT_LT((facts.gravity->head<2>() - run.gravity<2>().start).norm(), 1e-13);
   EXPECT_TRUE(*facts.discs);
-  EXPECT_EQ(moment.periodic, (std::array<bool, 3>{true, false, false}));
-  EXPECT_NEAR(moment.high.x() - moment.low.x(), run.box().length_x, 1e-14);
-  for (std::size_t g = 0; g < moment.grains.size(); ++g) {
+  EXPECT_EQ(raw.periodic, (std::array<bool, 3>{true, false, false}));
+  EXPECT_NEAR(raw.high.x() - raw.low.x(), run.box().length_x, 1e-14);
+  for (std::size_t g = 0; g < raw.grains.size(); ++g) {
     const double r = run.grains().radius[g];
-    EXPECT_EQ(moment.grains.fixed[g], run.grains().fixed[g]);
-    EXPECT_EQ(moment.grains.type[g], species_numbers(run.grains().species, 2)[g]);
-    EXPECT_NEAR(moment.grains.mass[g], std::numbers::pi * r * r, 1e-6 * r * r);
+    EXPECT_EQ(raw.grains.fixed[g], run.grains().fixed[g]);
+    EXPECT_EQ(raw.grains.type[g], species_numbers(run.grains().species, 2)[g]);
+    EXPECT_NEAR(raw.grains.mass[g], std::numbers::pi * r * r, 1e-6 * r * r);
   }
 }
 
@@ -255,12 +255,12 @@ TEST_F(Mercury, ATruncatedBlockEndsTheArchiveAfterTheWholeOnes)
   for (const std::size_t cut : {1U, 40U, 5000U}) {
     all.grains = {file("cut.data", text.substr(0, text.size() - cut))};
     const auto archive = mercury_format.open(all);
-    ArchiveMoment moment;
-    EXPECT_TRUE(archive->next(moment));
-    EXPECT_TRUE(archive->next(moment));
-    EXPECT_THROW(archive->next(moment), TruncatedArchive) << cut;
-    EXPECT_EQ(moment.grains.size(), run.grains().size()) << "those of the last whole block";
-    EXPECT_FALSE(moment.grains.angular_velocity.empty());
+    ArchiveFrame raw;
+    EXPECT_TRUE(archive->next(raw));
+    EXPECT_TRUE(archive->next(raw));
+    EXPECT_THROW(archive->next(raw), TruncatedArchive) << cut;
+    EXPECT_EQ(raw.grains.size(), run.grains().size()) << "those of the last whole block";
+    EXPECT_FALSE(raw.grains.angular_velocity.empty());
   }
   EXPECT_NE(complaint(all).find("--drop-incomplete"), std::string::npos);
 }

@@ -133,17 +133,17 @@ std::string with(std::string text, const std::string& from, const std::string& t
 void MercuryRestarts::expect_frames(const ArchiveFiles& files, int id_factor) const
 {
   const auto archive = mercury_format.open(files);
-  const auto moments = all_of(*archive);
-  ASSERT_EQ(moments.size(), frames.size());
+  const auto raw = all_of(*archive);
+  ASSERT_EQ(raw.size(), frames.size());
   EXPECT_DOUBLE_EQ(*archive->facts().step, run.step());
   EXPECT_TRUE(*archive->facts().discs);
   const Vec3 gravity = *archive->facts().gravity;
   EXPECT_LT((gravity.head<2>() - run.gravity<2>().start).norm(), 1e-13);
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    const auto& [grains, contacts] = std::tie(moments[k].grains, moments[k].contacts);
+    const auto& [grains, contacts] = std::tie(raw[k].grains, raw[k].contacts);
     const auto &frame = frames[k], &meant = frames[k];
-    EXPECT_NEAR(*moments[k].time, frame.time, 1e-12);
-    EXPECT_EQ(moments[k].periodic, (std::array<bool, 3>{true, false, false}));
+    EXPECT_NEAR(*raw[k].time, frame.time, 1e-12);
+    EXPECT_EQ(raw[k].periodic, (std::array<bool, 3>{true, false, false}));
     ASSERT_EQ(grains.size(), run.grains().size());
     for (std::size_t g = 0; g < grains.size(); ++g) {
       EXPECT_EQ(grains.id[g], static_cast<std::int64_t>(g) * id_factor);
@@ -164,7 +164,7 @@ void MercuryRestarts::expect_frames(const ArchiveFiles& files, int id_factor) co
       EXPECT_LT((contacts.branch[c].head<2>() - meant.contacts.branch[c]).norm(), 1e-12);
       EXPECT_NEAR(contacts.overlap[c], -meant.contacts.gap[c], 1e-12);
     }
-    EXPECT_LT(residual(moments[k], gravity), 1e-12);
+    EXPECT_LT(residual(raw[k], gravity), 1e-12);
   }
 }
 
@@ -197,7 +197,7 @@ TEST_F(MercuryRestarts, IdsAreThoseOfTheProgramAndNotRows)
   expect_frames(series({.id_factor = 3}), 3);
 }
 
-TEST_F(MercuryRestarts, OneFileIsOneMoment)
+TEST_F(MercuryRestarts, OneFileIsOneFrame)
 {
   EXPECT_EQ(all_of(*mercury_format.open(one(text_of(0)))).size(), 1u);
 }
@@ -216,15 +216,15 @@ TEST_F(MercuryRestarts, OldVersionsHaveTheGrainsAndFStatTheForces)
     EXPECT_TRUE(mentions(complaint(files), "name it with --grains and the .fstat")) << version;
     files.contacts = {folder.write("old.fstat", fstat)};
     const auto archive = mercury_format.open(files);
-    const auto moments = all_of(*archive);
-    ASSERT_EQ(moments.size(), frames.size());
+    const auto raw = all_of(*archive);
+    ASSERT_EQ(raw.size(), frames.size());
     EXPECT_DOUBLE_EQ(*archive->facts().step, run.step());
     EXPECT_TRUE(*archive->facts().discs);
     EXPECT_LT((archive->facts().gravity->head<2>() - run.gravity<2>().start).norm(), 1e-13);
     for (std::size_t k = 0; k < frames.size(); ++k) {
-      const auto& grains = moments[k].grains;
-      EXPECT_TRUE(moments[k].periodic[0]);
-      EXPECT_EQ(moments[k].contacts.size(), frames[k].contacts.size());
+      const auto& grains = raw[k].grains;
+      EXPECT_TRUE(raw[k].periodic[0]);
+      EXPECT_EQ(raw[k].contacts.size(), frames[k].contacts.size());
       EXPECT_TRUE(grains.force.empty());
       for (std::size_t g = 0; g < grains.size(); ++g) {
         EXPECT_LT((grains.position[g].head<2>() - frames[k].position[g]).norm(), 1e-13);
@@ -307,11 +307,11 @@ TEST_F(MercuryRestarts, GravityThatChangesIsRefused)
 TEST_F(MercuryRestarts, RowsOfDataNameGrainsAsLongAsGrainsAreOnlyInserted)
 {
   const auto n = run.grains().size();
-  const auto moments = all_of(*mercury_format.open(tables(data({n - 4, n - 4, n}), text_of(2))));
-  ASSERT_EQ(moments.size(), 3u);
-  EXPECT_EQ(moments[0].grains.size(), n - 4);
-  EXPECT_EQ(moments[2].grains.size(), n);
-  EXPECT_EQ(moments[0].grains.mass.back(), moments[2].grains.mass[n - 5]);
+  const auto raw = all_of(*mercury_format.open(tables(data({n - 4, n - 4, n}), text_of(2))));
+  ASSERT_EQ(raw.size(), 3u);
+  EXPECT_EQ(raw[0].grains.size(), n - 4);
+  EXPECT_EQ(raw[2].grains.size(), n);
+  EXPECT_EQ(raw[0].grains.mass.back(), raw[2].grains.mass[n - 5]);
 }
 
 TEST_F(MercuryRestarts, RowsOfDataAreRefusedWhereGrainsWereRemoved)

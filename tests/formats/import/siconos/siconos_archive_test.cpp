@@ -88,20 +88,20 @@ TEST(SiconosArchive, ImpulsesOverTheStepAreTheWeightsOfAStack)
 TEST(SiconosArchive, PointsOfOnePairAddUpToOneContact)
 {
   // The table has three rows for the sphere on the plate and one for the two spheres.
-  for (const auto& moment : all_of(*open(spheres))) {
-    if (*moment.time < 0.024) continue;
-    EXPECT_EQ(moment.contacts.size(), 2u);
+  for (const auto& frame : all_of(*open(spheres))) {
+    if (*frame.time < 0.024) continue;
+    EXPECT_EQ(frame.contacts.size(), 2u);
   }
 }
 
 TEST(SiconosArchive, TimesInSinglePrecisionMatch)
 {
-  const auto moments = all_of(*open(discs));
-  ASSERT_EQ(moments.size(), 80u);  // the initial state was not solved
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    EXPECT_EQ(*moments[k].step, static_cast<std::int64_t>(k + 1));
-    EXPECT_EQ(moments[k].grains.size(), 17u);
-    EXPECT_FALSE(moments[k].grains.force.empty());
+  const auto frames = all_of(*open(discs));
+  ASSERT_EQ(frames.size(), 80u);  // the initial state was not solved
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    EXPECT_EQ(*frames[k].step, static_cast<std::int64_t>(k + 1));
+    EXPECT_EQ(frames[k].grains.size(), 17u);
+    EXPECT_FALSE(frames[k].grains.force.empty());
   }
 }
 
@@ -109,7 +109,7 @@ TEST(SiconosArchive, GrainsBalanceInSinglePrecision)
 {
   const auto archive = open(discs);
   double worst = 0;
-  for (const auto& moment : all_of(*archive)) worst = std::max(worst, residual(moment, slope));
+  for (const auto& frame : all_of(*archive)) worst = std::max(worst, residual(frame, slope));
   EXPECT_LT(worst, 1e-5);
   EXPECT_GT(worst, 0);
   // The file has four rows of contacts that had opened; if these counted, the residual would be 0.2.
@@ -125,12 +125,12 @@ struct Turning {
 Turning turning_in(const std::string& path, double inertia)
 {
   const auto archive = open(path);
-  const auto moments = all_of(*archive);
+  const auto frames = all_of(*archive);
   Turning counts;
-  for (std::size_t k = 1; k < moments.size(); ++k) {
-    const auto& grains = moments[k].grains;
-    const auto& before = moments[k - 1].grains;
-    const auto& contacts = moments[k].contacts;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    const auto& grains = frames[k].grains;
+    const auto& before = frames[k - 1].grains;
+    const auto& contacts = frames[k].contacts;
     const auto entry = entries(grains);
     std::vector<Vec3> torque(grains.size(), Vec3::Zero());
     for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -165,18 +165,18 @@ TEST(SiconosArchive, TorquesOfTheForcesTurnTheGrains)
 TEST(SiconosArchive, SpheresThatFallObliquelyBalanceInAllComponents)
 {
   const auto archive = open(spheres_in_space);
-  const auto moments = all_of(*archive);
+  const auto frames = all_of(*archive);
   const Vec3 pull{slope.x(), 0, slope.y()};
   Vec3 largest = Vec3::Zero();
   std::size_t with_plate = 0;
-  for (const auto& moment : moments) {
-    EXPECT_LT(residual(moment, pull), 1e-5);
-    for (std::size_t c = 0; c < moment.contacts.size(); ++c) {
-      largest = largest.cwiseMax(moment.contacts.force[c].cwiseAbs());
-      with_plate += at_wall(moment.contacts, c);
+  for (const auto& frame : frames) {
+    EXPECT_LT(residual(frame, pull), 1e-5);
+    for (std::size_t c = 0; c < frame.contacts.size(); ++c) {
+      largest = largest.cwiseMax(frame.contacts.force[c].cwiseAbs());
+      with_plate += at_wall(frame.contacts, c);
     }
   }
-  EXPECT_EQ(moments.size(), 50u);
+  EXPECT_EQ(frames.size(), 50u);
   EXPECT_GT(largest.minCoeff(), 0.5) << "N";
   EXPECT_EQ(with_plate, 85u);
 }
@@ -184,21 +184,21 @@ TEST(SiconosArchive, SpheresThatFallObliquelyBalanceInAllComponents)
 TEST(SiconosArchive, StaticPartnersAreFoundByTheirSurface)
 {
   std::size_t with_base = 0, with_plate = 0;
-  for (const auto& moment : all_of(*open(discs))) {
-    const auto& contacts = moment.contacts;
-    const auto entry = entries(moment.grains);
+  for (const auto& frame : all_of(*open(discs))) {
+    const auto& contacts = frame.contacts;
+    const auto entry = entries(frame.grains);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto i = entry.at(contacts.i[c]);
       EXPECT_GT(contacts.i[c], 0);
       if (at_wall(contacts, c)) {
         ++with_plate;
-        EXPECT_NEAR(contacts.branch[c].x(), -moment.grains.radius[i], 2e-3);
+        EXPECT_NEAR(contacts.branch[c].x(), -frame.grains.radius[i], 2e-3);
         EXPECT_EQ(contacts.wall[c], 0);
         continue;
       }
       const auto j = entry.at(contacts.j[c]);
-      with_base += moment.grains.fixed[j];
-      const double reach = moment.grains.radius[i] + moment.grains.radius[j];
+      with_base += frame.grains.fixed[j];
+      const double reach = frame.grains.radius[i] + frame.grains.radius[j];
       EXPECT_NEAR(contacts.branch[c].norm(), reach, 3e-3);  // tolerance: the way in one step
     }
   }
@@ -227,13 +227,13 @@ const std::string ground_in_space = inputs + "ground3d-10.hdf5";
 TEST(SiconosArchive, EveryTenthStepHasNoForcesOnGrainsAndSaysWhatCannotBeTold)
 {
   const auto archive = open(ground_in_plane);
-  const auto moments = all_of(*archive);
+  const auto frames = all_of(*archive);
   EXPECT_NEAR(*archive->facts().step, 0.002, 1e-9);
-  ASSERT_EQ(moments.size(), 31u);  // the first step is written as well
-  EXPECT_EQ(*moments[0].step, 1);
-  for (std::size_t k = 1; k < moments.size(); ++k)
-    EXPECT_EQ(*moments[k].step, static_cast<std::int64_t>(10 * k));
-  for (const auto& moment : moments) EXPECT_TRUE(moment.grains.force.empty());
+  ASSERT_EQ(frames.size(), 31u);  // the first step is written as well
+  EXPECT_EQ(*frames[0].step, 1);
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    EXPECT_EQ(*frames[k].step, static_cast<std::int64_t>(10 * k));
+  for (const auto& frame : frames) EXPECT_TRUE(frame.grains.force.empty());
   ASSERT_EQ(archive->remarks().size(), 1u);
   EXPECT_NE(archive->remarks()[0].find("only one of up to 10 steps was "
                                        "written"),
@@ -244,13 +244,13 @@ TEST(SiconosArchive, EveryTenthStepHasNoForcesOnGrainsAndSaysWhatCannotBeTold)
 /// the ground's normal is along axis `up`.
 double carried_in(const std::string& path, std::size_t count, int up)
 {
-  const auto moments = all_of(*open(path));
+  const auto frames = all_of(*open(path));
   double carried = 0, weight = 0;
-  for (const double mass : moments.back().grains.mass) weight += 9.81 * mass;
-  for (auto k = moments.size() - count; k < moments.size(); ++k)
-    for (std::size_t c = 0; c < moments[k].contacts.size(); ++c)
-      if (at_wall(moments[k].contacts, c))
-        carried += moments[k].contacts.force[c][up] / static_cast<double>(count);
+  for (const double mass : frames.back().grains.mass) weight += 9.81 * mass;
+  for (auto k = frames.size() - count; k < frames.size(); ++k)
+    for (std::size_t c = 0; c < frames[k].contacts.size(); ++c)
+      if (at_wall(frames[k].contacts, c))
+        carried += frames[k].contacts.force[c][up] / static_cast<double>(count);
   return carried / weight;
 }
 
@@ -265,12 +265,12 @@ TEST(SiconosArchive, ContactsWithAHullLieOnItOrOnItsMargin)
 {
   const auto expect_on_ground = [](const std::string& path, int up, double margin) {
     std::size_t found = 0;
-    for (const auto& moment : all_of(*open(path))) {
-      const auto entry = entries(moment.grains);
-      const auto& contacts = moment.contacts;
+    for (const auto& frame : all_of(*open(path))) {
+      const auto entry = entries(frame.grains);
+      const auto& contacts = frame.contacts;
       for (std::size_t c = 0; c < contacts.size(); ++c) {
         if (!at_wall(contacts, c)) continue;
-        const Vec3 x = moment.grains.position[entry.at(contacts.i[c])];
+        const Vec3 x = frame.grains.position[entry.at(contacts.i[c])];
         EXPECT_NEAR((x - contacts.branch[c])[up], margin, 1e-5);
         EXPECT_EQ(contacts.wall[c], 0);
         ++found;
@@ -411,7 +411,7 @@ void copy_from_time(const std::string& from, const std::string& to, float time)
   H5Fclose(file);
 }
 
-TEST_F(DamagedSiconos, ARunWhoseFirstStatesWereTakenAwayHasTheOtherMoments)
+TEST_F(DamagedSiconos, ARunWhoseFirstStatesWereTakenAwayHasTheOtherFrames)
 {
   copy_from_time(discs, path, 0.0995F);  // discs.hdf5 has a step of 0.002 and 80 of them
   const auto whole = all_of(*open(discs));

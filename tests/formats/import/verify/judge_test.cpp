@@ -31,19 +31,19 @@ CheckContext context_of(bool has_force = true)
 }
 
 /// A frame from which gravity follows with a standard error.
-CheckMoment moment_with(const Vec3& gravity, double error)
+CheckFrame frame_with(const Vec3& gravity, double error)
 {
-  CheckMoment moment;
-  moment.medians = 1;
-  moment.acceleration = 100;
-  moment.balance_grains = 100;
-  moment.all = moment.smaller = moment.larger = {100, gravity, error};
-  return moment;
+  CheckFrame frame;
+  frame.medians = 1;
+  frame.acceleration = 100;
+  frame.balance_grains = 100;
+  frame.all = frame.smaller = frame.larger = {100, gravity, error};
+  return frame;
 }
 
 Finding gravity_of(const Vec3& found, double error, CheckContext context = context_of())
 {
-  return judge_gravity({moment_with(found, error)}, context);
+  return judge_gravity({frame_with(found, error)}, context);
 }
 
 TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
@@ -71,7 +71,7 @@ TEST(JudgeGravity, ThatTurnsWithinTheArchiveIsRefused)
   const Vec3 flat(0, -10, 0), steep(10 * std::sin(twenty), -10 * std::cos(twenty), 0);
   CheckSeries series;
   for (const auto& gravity : {flat, flat, steep, steep}) {
-    series.push_back(moment_with(gravity, 0.01));
+    series.push_back(frame_with(gravity, 0.01));
     series.back().time = static_cast<double>(series.size());
   }
   const auto finding = judge_gravity(series, context_of());
@@ -100,7 +100,7 @@ TEST(JudgeMasses, AreOpenWhereTheySuggestOtherGrainsThanWereTold)
 {
   auto context = context_of();
   context.masses_are_given = false;
-  const CheckSeries series{moment_with({0, -10, 0}, 0.001)};
+  const CheckSeries series{frame_with({0, -10, 0}, 0.001)};
   const auto gravity = judge_gravity(series, context);
   EXPECT_EQ(judge_masses(series, context, gravity).verdict, Verdict::passed);
   context.doubt_of_masses = "their densities differ by a factor of 2, or they are spheres";
@@ -119,15 +119,15 @@ TEST(JudgeGravity, ThatAgreesButPointsAwayFromTheBaseMeansOtherAxes)
 
 TEST(JudgeCompleteness, IsOpenWhereUnlistedPairsMayPart)
 {
-  auto moment = moment_with({0, -10, 0}, 0.01);
-  const auto verdict = [&] { return judge({moment}, context_of())[1].verdict; };
+  auto frame = frame_with({0, -10, 0}, 0.01);
+  const auto verdict = [&] { return judge({frame}, context_of())[1].verdict; };
   EXPECT_EQ(verdict(), Verdict::passed);
-  moment.unlisted = 0.02;
-  moment.unlisted_pairs = 1;
+  frame.unlisted = 0.02;
+  frame.unlisted_pairs = 1;
   EXPECT_EQ(verdict(), Verdict::failed);
-  moment.unlisted_may_part = 1;
+  frame.unlisted_may_part = 1;
   EXPECT_EQ(verdict(), Verdict::undecided);
-  moment.rigid = 0.5;
+  frame.rigid = 0.5;
   EXPECT_EQ(verdict(), Verdict::failed);
 }
 
@@ -135,11 +135,11 @@ TEST(JudgeCompleteness, IsOpenWhereUnlistedPairsMayPart)
 // are not.
 TEST(JudgeBalance, IsUndecidedWhereMostGrainsBalanceButNotAll)
 {
-  auto moment = moment_with({0, -10, 0}, 0.01);
+  auto frame = frame_with({0, -10, 0}, 0.01);
   const auto verdict_with = [&](double median, double worst) {
-    moment.balance = median;
-    moment.balance_worst = worst;
-    return judge({moment}, context_of())[4];
+    frame.balance = median;
+    frame.balance_worst = worst;
+    return judge({frame}, context_of())[4];
   };
   EXPECT_EQ(verdict_with(1e-6, 1.5).verdict, Verdict::undecided);
   EXPECT_EQ(verdict_with(1e-6, 1.5).measure, 1.5);
@@ -172,15 +172,15 @@ TEST(JudgeGravity, IsSaidInTheUnitsAndAxesOfTheArchive)
 }
 
 // Sums over all grains that alternate between -9 and -11: the mean is -10, and neighbours differ.
-TEST(JudgeGravity, FromSumsNeedsEightPairsOfMoments)
+TEST(JudgeGravity, FromSumsNeedsEightPairsOfFrames)
 {
   CheckSeries series;
   for (int k = 0; k <= 8; ++k) {
-    auto moment = moment_with({0, k % 2 == 0 ? -9.9 : -10.1, 0}, 0);
-    moment.medians = 0;
-    moment.time = k;
+    auto frame = frame_with({0, k % 2 == 0 ? -9.9 : -10.1, 0}, 0);
+    frame.medians = 0;
+    frame.time = k;
     EXPECT_TRUE(k < 8 || judge_gravity(series, context_of(false)).verdict == Verdict::undecided);
-    series.push_back(moment);
+    series.push_back(frame);
   }
   EXPECT_EQ(judge_gravity(series, context_of(false)).verdict, Verdict::passed);
   auto upward = context_of(false);
@@ -193,24 +193,24 @@ TEST(JudgeGravity, FromSumsNeedsEightPairsOfMoments)
 // large ones.
 TEST(JudgeMasses, SpheresForDiscsShowInTheWeightOfSmallAndLargeGrains)
 {
-  auto moment = moment_with({0, -10, 0}, 0.01);
-  moment.smaller.gravity = {0, -12, 0};
-  moment.larger.gravity = {0, -6, 0};
+  auto frame = frame_with({0, -10, 0}, 0.01);
+  frame.smaller.gravity = {0, -12, 0};
+  frame.larger.gravity = {0, -6, 0};
   const Finding gravity{"gravity", Verdict::passed, "", 0};
-  const auto wrong = judge_masses({moment}, context_of(), gravity);
+  const auto wrong = judge_masses({frame}, context_of(), gravity);
   EXPECT_EQ(wrong.verdict, Verdict::failed);
   EXPECT_TRUE(mentions(wrong.sentence, "is 2 times that of larger ones"));
   EXPECT_TRUE(mentions(wrong.sentence, "--grains-are"));
-  moment.smaller.error = moment.larger.error = 3;
-  EXPECT_EQ(judge_masses({moment}, context_of(), gravity).verdict, Verdict::undecided);
-  EXPECT_EQ(judge_masses({moment_with({0, -10, 0}, 0.01)}, context_of(), gravity).verdict,
+  frame.smaller.error = frame.larger.error = 3;
+  EXPECT_EQ(judge_masses({frame}, context_of(), gravity).verdict, Verdict::undecided);
+  EXPECT_EQ(judge_masses({frame_with({0, -10, 0}, 0.01)}, context_of(), gravity).verdict,
             Verdict::passed);
 }
 
 TEST(JudgeMasses, WithoutForcesOnlyTheWeightIsKnown)
 {
   const Finding gravity{"gravity", Verdict::passed, "", 0};
-  const CheckSeries series{moment_with({0, -10, 0}, 0.01)};
+  const CheckSeries series{frame_with({0, -10, 0}, 0.01)};
   auto context = context_of(false);
   const auto finding = judge_masses(series, context, gravity);
   EXPECT_EQ(finding.verdict, Verdict::undecided);
@@ -232,9 +232,9 @@ SlopeSums line(double k, double noise = 0)
 TEST(JudgeMasses, ForceOverAccelerationIsTheMass)
 {
   const Finding gravity{"gravity", Verdict::passed, "", 0};
-  auto moment = moment_with({0, -10, 0}, 0.01);
-  moment.force = line(2);
-  const auto finding = judge_masses({moment}, context_of(), gravity);
+  auto frame = frame_with({0, -10, 0}, 0.01);
+  frame.force = line(2);
+  const auto finding = judge_masses({frame}, context_of(), gravity);
   EXPECT_EQ(finding.verdict, Verdict::failed);
   EXPECT_TRUE(mentions(finding.sentence,
                        "either masses are 2 times the masses by --density, or "
@@ -243,9 +243,9 @@ TEST(JudgeMasses, ForceOverAccelerationIsTheMass)
 
 Finding time_of(const SlopeSums& motion)
 {
-  CheckMoment moment;
-  moment.motion = motion;
-  return judge_time({CheckMoment(), moment}, context_of());
+  CheckFrame frame;
+  frame.motion = motion;
+  return judge_time({CheckFrame(), frame}, context_of());
 }
 
 TEST(JudgeTime, AStepTenTimesTooLongIsRefusedWithTheStepThatFits)
@@ -262,7 +262,7 @@ TEST(JudgeTime, APackingAtRestProvesNothing)
 {
   EXPECT_EQ(time_of({}).verdict, Verdict::undecided);
   EXPECT_EQ(time_of(line(0.1, 3)).verdict, Verdict::undecided) << "noise";
-  EXPECT_EQ(judge_time({CheckMoment()}, context_of()).verdict, Verdict::undecided);
+  EXPECT_EQ(judge_time({CheckFrame()}, context_of()).verdict, Verdict::undecided);
 }
 
 TEST(JudgeSizes, SmallAndLargeExchangedAreRefusedWithTheExchange)

@@ -142,11 +142,11 @@ TEST(Verification, RigidGrainsThatBalanceMayOverlapWithoutARow)
   accuracy.lists_all = false;
   Verification verification(scene.grains, scene.box, scene.gravity, accuracy);
   EXPECT_FALSE(verification.check(scene.frame));
-  EXPECT_EQ(verification.moment().unlisted, 0);
+  EXPECT_EQ(verification.numbers().unlisted, 0);
 }
 
 // Without forces on grains it is unknown whether the pair has a contact force.
-TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
+TEST(Verification, OfRigidGrainsInASingleFrameCompletenessIsOpen)
 {
   auto scene = overlapping_discs();
   scene.frame.force.clear();
@@ -154,8 +154,8 @@ TEST(Verification, OfRigidGrainsAtASingleMomentCompletenessIsOpen)
   accuracy.lists_all = false;
   Verification verification(scene.grains, scene.box, scene.gravity, accuracy);
   EXPECT_FALSE(verification.check(scene.frame));
-  EXPECT_NEAR(verification.moment().unlisted, 0.2, 1e-12);
-  EXPECT_EQ(verification.moment().unlisted_may_part, 1);
+  EXPECT_NEAR(verification.numbers().unlisted, 0.2, 1e-12);
+  EXPECT_EQ(verification.numbers().unlisted_may_part, 1);
 }
 
 // Spins are 3, and velocities differ by 3 x (2.4 - 1, 0) = (0, 4.2).
@@ -249,7 +249,7 @@ TEST(Verification, AForceThatChangesOverAStepIsKnownToHalfOfTheChange)
   }
 }
 
-TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
+TEST(Verification, FramesFarApartBalanceNeitherWellNorBadly)
 {
   Scene scene;
   scene.frame.force.clear();
@@ -260,8 +260,8 @@ TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
   scene.frame.contacts.force[0] = {0, 40, 0};
   EXPECT_FALSE(verification.check(scene.frame));
   EXPECT_FALSE(verification.residual());
-  EXPECT_EQ(verification.moment().balance_grains, 0);
-  EXPECT_DOUBLE_EQ(verification.moment().change, 10.0 / 40);
+  EXPECT_EQ(verification.numbers().balance_grains, 0);
+  EXPECT_DOUBLE_EQ(verification.numbers().change, 10.0 / 40);
   // If forces do not change, as in a packing at rest, the median grain in contact is judged.
   scene.frame.step = 2000;
   scene.frame.time = 2000;
@@ -272,7 +272,7 @@ TEST(Verification, MomentsFarApartBalanceNeitherWellNorBadly)
 
 // The disc falls for 0.4 s, hits a floor that is not in the archive, and is at rest again, while the
 // contacts of the other disc have not changed: nothing is wrong, and nothing can be judged.
-TEST(Verification, MomentsAreFarApartWhereAGrainMayHaveMetAnotherInBetween)
+TEST(Verification, FramesAreFarApartWhereAGrainMayHaveMetAnotherInBetween)
 {
   for (const double speed : {0.0, 0.04}) {
     Scene scene;
@@ -302,7 +302,7 @@ TEST(Verification, ADeepOverlapHasItsOwnNameAndCanBeWaived)
   Verification waived(scene.grains, scene.box, scene.gravity, {1e-10, false, 0, 0.5},
                       Waivers({"overlap=0.6"}));
   EXPECT_FALSE(waived.check(scene.frame));
-  EXPECT_DOUBLE_EQ(waived.moment().overlap, 0.5);
+  EXPECT_DOUBLE_EQ(waived.numbers().overlap, 0.5);
 }
 
 // A wall below, which the archive does not mention, holds the disc on the base disc.
@@ -392,7 +392,7 @@ TEST(Verification, ADragOnAllGrainsIsNamedAndIsNoOtherGravity)
 }
 
 // Velocities of 1 for a time of 0.1, but displacements of 0.5, five times as far.
-TEST(Verification, MomentsWhoseGrainsMovedTooFarAreNotOneStepApart)
+TEST(Verification, FramesWhoseGrainsMovedTooFarAreNotOneStepApart)
 {
   Scene scene;
   scene.frame.contacts.clear();

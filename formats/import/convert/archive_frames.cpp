@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/convert/moments.hpp"
+#include "formats/import/convert/archive_frames.hpp"
 
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/words.hpp"
@@ -15,28 +15,28 @@
 namespace grseg {
 namespace {
 
-std::string in_words(const ArchiveMoment& moment)
+std::string in_words(const ArchiveFrame& frame)
 {
-  if (!moment.time) return fmt::format("step {}", *moment.step);
-  if (!moment.step) return fmt::format("t = {:g}", *moment.time);
-  return fmt::format("t = {:g} (step {})", *moment.time, *moment.step);
+  if (!frame.time) return fmt::format("step {}", *frame.step);
+  if (!frame.step) return fmt::format("t = {:g}", *frame.time);
+  return fmt::format("t = {:g} (step {})", *frame.time, *frame.step);
 }
 
 /// The step of a frame, or its time if it has no step.
-double time_of(const ArchiveMoment& moment)
+double time_of(const ArchiveFrame& frame)
 {
-  return moment.step ? static_cast<double>(*moment.step) : *moment.time;
+  return frame.step ? static_cast<double>(*frame.step) : *frame.time;
 }
 
 /// The times (or steps) of all frames, in the order of the archive.
 std::vector<double> times_of(Archive& archive)
 {
   std::vector<double> times;
-  ArchiveMoment moment;
+  ArchiveFrame frame;
   try {
-    while (archive.next_grains(moment)) {
+    while (archive.next_grains(frame)) {
       stop_if_interrupted();
-      times.push_back(time_of(moment));
+      times.push_back(time_of(frame));
     }
   } catch (const TruncatedArchive&) {
     // The import itself reports this error.
@@ -56,14 +56,14 @@ std::uint64_t digest_of(const ArchiveGrains& grains)
 
 }  // namespace
 
-MomentRange::MomentRange(const std::optional<std::string>& begin,
-                         const std::optional<std::string>& end)
+ArchiveRange::ArchiveRange(const std::optional<std::string>& begin,
+                           const std::optional<std::string>& end)
 {
   add("--begin", begin);
   add("--end", end);
 }
 
-void MomentRange::add(const char* option, const std::optional<std::string>& text)
+void ArchiveRange::add(const char* option, const std::optional<std::string>& text)
 {
   if (!text) return;
   text_ += fmt::format("{}{} {}", text_.empty() ? "" : " ", option, *text);
@@ -81,10 +81,10 @@ void MomentRange::add(const char* option, const std::optional<std::string>& text
 }
 
 /// Position of a frame relative to a bound: -1 before, 0 at, 1 after the bound.
-int MomentRange::compare(const ArchiveMoment& moment, const Bound& bound,
-                         const std::optional<double>& step)
+int ArchiveRange::compare(const ArchiveFrame& frame, const Bound& bound,
+                          const std::optional<double>& step)
 {
-  const bool known = bound.time ? moment.time.has_value() : moment.step.has_value();
+  const bool known = bound.time ? frame.time.has_value() : frame.step.has_value();
   if (!known && !(step && *step > 0))
     throw UsageError(fmt::format(
         "{} is a {}, but the archive has {} only, and the length of a time step is unknown: pass "
@@ -92,35 +92,35 @@ int MomentRange::compare(const ArchiveMoment& moment, const Bound& bound,
         bound.option, bound.time ? "time" : "step", bound.time ? "steps" : "times",
         bound.time ? "step, as in step:100000" : "time"));
   if (!bound.time) {
-    const auto at = moment.step ? *moment.step : std::llround(*moment.time / *step);
+    const auto at = frame.step ? *frame.step : std::llround(*frame.time / *step);
     return at < bound.step ? -1 : at > bound.step ? 1 : 0;
   }
   constexpr double digits = 1e-9;
-  const double time = moment.time ? *moment.time : static_cast<double>(*moment.step) * *step;
+  const double time = frame.time ? *frame.time : static_cast<double>(*frame.step) * *step;
   if (std::abs(time - *bound.time) <= digits * std::max(std::abs(time), std::abs(*bound.time)))
     return 0;
   return time < *bound.time ? -1 : 1;
 }
 
-MomentRange::Side MomentRange::side(const ArchiveMoment& moment, const std::optional<double>& step)
+ArchiveRange::Side ArchiveRange::side(const ArchiveFrame& frame, const std::optional<double>& step)
 {
-  last_ = in_words(moment);
+  last_ = in_words(frame);
   if (count_++ == 0) first_ = last_;
   for (const auto& bound : bounds_) {
-    const int where = compare(moment, bound, step);
+    const int where = compare(frame, bound, step);
     if (bound.is_end && where >= 0) return Side::after;
     if (!bound.is_end && where < 0) return Side::before;
   }
   return Side::within;
 }
 
-std::string MomentRange::seen() const
+std::string ArchiveRange::seen() const
 {
   return count_ == 1 ? fmt::format("one frame, {}", first_)
                      : fmt::format("{} frames from {} to {}", count_, first_, last_);
 }
 
-RepeatedMoments::RepeatedMoments(const ImportSettings& settings)
+RepeatedFrames::RepeatedFrames(const ImportSettings& settings)
 {
   if (settings.repeated) which_ = choose(*settings.repeated, "--repeated", repeated_words);
   if (which_ != Repeated::last) return;
@@ -133,7 +133,7 @@ RepeatedMoments::RepeatedMoments(const ImportSettings& settings)
   }
 }
 
-bool RepeatedMoments::counts(const ArchiveMoment& moment)
+bool RepeatedFrames::counts(const ArchiveFrame& frame)
 {
   if (which_ == Repeated::last) {
     const bool is_last = next_ >= last_ones_.size() || last_ones_[next_];
@@ -141,17 +141,17 @@ bool RepeatedMoments::counts(const ArchiveMoment& moment)
     dropped_ += is_last ? 0 : 1;
     return is_last;
   }
-  const double time = time_of(moment);
-  if (!seen_.empty() && time <= seen_.rbegin()->first) return comes_again(moment, time);
-  seen_.emplace(time, digest_of(moment.grains));
+  const double time = time_of(frame);
+  if (!seen_.empty() && time <= seen_.rbegin()->first) return comes_again(frame, time);
+  seen_.emplace(time, digest_of(frame.grains));
   return true;
 }
 
 /// Counts a frame that is not later than the previous ones and returns false, or throws UsageError.
-bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
+bool RepeatedFrames::comes_again(const ArchiveFrame& frame, double time)
 {
   const auto before = seen_.find(time);
-  if (before != seen_.end() && before->second == digest_of(moment.grains)) {
+  if (before != seen_.end() && before->second == digest_of(frame.grains)) {
     ++same_;
     return false;
   }
@@ -159,16 +159,16 @@ bool RepeatedMoments::comes_again(const ArchiveMoment& moment, double time)
     ++dropped_;
     return false;
   }
-  const int digits = moment.step ? 17 : 10;  // steps are written exactly
+  const int digits = frame.step ? 17 : 10;  // steps are written exactly
   throw UsageError(fmt::format(
       "{}: {} {:.{}g} comes after {:.{}g}{}: if a job began again from an earlier checkpoint, "
       "--repeated first reads the frames of the earlier job, "
       "--repeated last the frames of the later job",
-      moment.place, moment.step ? "step" : "time", time, digits, seen_.rbegin()->first, digits,
+      frame.place, frame.step ? "step" : "time", time, digits, seen_.rbegin()->first, digits,
       before == seen_.end() ? "" : ", and its grains are not where they were the first time"));
 }
 
-std::string RepeatedMoments::remark() const
+std::string RepeatedFrames::remark() const
 {
   if (same_ > 0 && dropped_ == 0)
     return fmt::format("{} {} twice with equal grains; each is imported once",
@@ -179,7 +179,7 @@ std::string RepeatedMoments::remark() const
   return "";
 }
 
-Moments::Moments(const ImportSettings& settings)
+ArchiveFrames::ArchiveFrames(const ImportSettings& settings)
     : archive_(open_archive(settings.format, settings.files)),
       step_(settings.step),
       interval_(settings.interval),
@@ -190,12 +190,12 @@ Moments::Moments(const ImportSettings& settings)
 {
 }
 
-bool Moments::read_one(ArchiveMoment& moment, Read read)
+bool ArchiveFrames::read_one(ArchiveFrame& frame, Read read)
 {
   for (;;) try {
-      if (!((*archive_).*read)(moment)) return false;
-      if (interval_) set_time(moment);
-      for (const auto& cell : cells_) tell(cell, moment);
+      if (!((*archive_).*read)(frame)) return false;
+      if (interval_) set_time(frame);
+      for (const auto& cell : cells_) tell(cell, frame);
       return true;
     } catch (const TruncatedArchive& incomplete) {
       if (!drop_incomplete_) throw;
@@ -204,7 +204,7 @@ bool Moments::read_one(ArchiveMoment& moment, Read read)
     }
 }
 
-std::vector<std::string> Moments::remarks() const
+std::vector<std::string> ArchiveFrames::remarks() const
 {
   std::vector<std::string> remarks;
   if (!range_.text().empty())
@@ -217,27 +217,27 @@ std::vector<std::string> Moments::remarks() const
 }
 
 /// Sets the time of a frame to its number times --frame-interval.
-void Moments::set_time(ArchiveMoment& moment) const
+void ArchiveFrames::set_time(ArchiveFrame& frame) const
 {
-  if (moment.time)
+  if (frame.time)
     throw UsageError(fmt::format(
         "{}: --frame-interval is given, but the archive has times; leave the option out",
-        moment.place));
+        frame.place));
   if (!(*interval_ > 0))
     throw UsageError(fmt::format("--frame-interval {:g} is not positive", *interval_));
-  moment.time = static_cast<double>(*moment.step) * *interval_;
-  moment.step.reset();
+  frame.time = static_cast<double>(*frame.step) * *interval_;
+  frame.step.reset();
 }
 
-bool Moments::advance(ArchiveMoment& moment, Read read)
+bool ArchiveFrames::advance(ArchiveFrame& frame, Read read)
 {
-  while (!ended_ && read_one(moment, read)) {
+  while (!ended_ && read_one(frame, read)) {
     stop_if_interrupted();
-    if (!repeated_.counts(moment)) continue;
-    const auto side = range_.side(moment, step_ ? step_ : archive_->facts().step);
-    if (side == MomentRange::Side::within) return found_ = true;
+    if (!repeated_.counts(frame)) continue;
+    const auto side = range_.side(frame, step_ ? step_ : archive_->facts().step);
+    if (side == ArchiveRange::Side::within) return found_ = true;
     // If no frame is in the range, the archive is read to its end, for the text of the error.
-    ended_ = found_ && side == MomentRange::Side::after;
+    ended_ = found_ && side == ArchiveRange::Side::after;
   }
   if (!found_ && range_.any_seen())
     throw UsageError(fmt::format("no frame lies in the range {}: the archive has {}", range_.text(),

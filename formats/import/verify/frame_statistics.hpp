@@ -10,7 +10,7 @@
 namespace grseg {
 
 /// The previous frame, and sums of its forces.
-struct MomentBefore : Frame<3> {
+struct FrameBefore : Frame<3> {
   std::vector<Vec3> sums;  // sum of the contact forces on each grain
 };
 
@@ -23,17 +23,17 @@ std::vector<Vec3> contact_sums(std::size_t grains, const ContactList<3>& contact
 double change_of_sums(const Grains& grains, const Frame<3>& frame, const std::vector<Vec3>& before,
                       const std::vector<Vec3>& now);
 
-/// Computes the numbers of a CheckMoment about weights, inertia and displacements: from
+/// Computes the numbers of a CheckFrame about weights, inertia and displacements: from
 /// `acceleration` to the end. In any consistent units.
-class MomentStatistics {
+class FrameStatistics {
  public:
-  MomentStatistics(const Grains& grains, const Box& box);
+  FrameStatistics(const Grains& grains, const Box& box);
 
   /// Fills in these numbers. `sums` are the contact forces on each grain. `before` is the previous
   /// frame, empty for the first one. `close`: both frames are close together (judge.hpp).
   /// `has_images`: the archive states images.
-  void add_to(CheckMoment& moment, const Frame<3>& frame, const std::vector<Vec3>& sums,
-              const std::optional<MomentBefore>& before, bool close, bool has_images) const;
+  void add_to(CheckFrame& numbers, const Frame<3>& frame, const std::vector<Vec3>& sums,
+              const std::optional<FrameBefore>& before, bool close, bool has_images) const;
 
   /// Excludes grains (flags by row) from weights, because their balance was used to infer a wall's
   /// force. Stores a reference; at each call of add_to the vector is empty or has all grains.
@@ -45,13 +45,13 @@ class MomentStatistics {
   bool is_in(Group group, std::size_t grain) const;
 
   Vectors weights(const Frame<3>& frame, const Vectors& sums,
-                  const std::optional<MomentBefore>& before) const;
+                  const std::optional<FrameBefore>& before) const;
   GravityEstimate by_median(Group group, const Vectors& weights) const;
   GravityEstimate by_mean(Group group, const Vectors& weights) const;
   double acceleration(const Frame<3>& frame) const;
-  void add_motion(SlopeSums& sums, const Frame<3>& frame, const MomentBefore& before,
+  void add_motion(SlopeSums& sums, const Frame<3>& frame, const FrameBefore& before,
                   const std::vector<bool>& is_free, bool has_images) const;
-  void add_inertia(SlopeSums& sums, const Frame<3>& frame, const MomentBefore& before,
+  void add_inertia(SlopeSums& sums, const Frame<3>& frame, const FrameBefore& before,
                    const std::vector<bool>& is_free) const;
 
   const std::vector<std::uint8_t>* left_out_ = nullptr;

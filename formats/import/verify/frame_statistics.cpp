@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "formats/import/verify/moment_statistics.hpp"
+#include "formats/import/verify/frame_statistics.hpp"
 
 #include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/check_context.hpp"
@@ -79,7 +79,7 @@ double change_of_sums(const Grains& grains, const Frame<3>& frame, const std::ve
   return force > 0 ? change / force : 1;
 }
 
-MomentStatistics::MomentStatistics(const Grains& grains, const Box& box)
+FrameStatistics::FrameStatistics(const Grains& grains, const Box& box)
     : grains_(grains), box_(box), split_(split_of_sizes(grains))
 {
   double sum = 0, count = 0;
@@ -88,7 +88,7 @@ MomentStatistics::MomentStatistics(const Grains& grains, const Box& box)
   diameter_ = count > 0 ? sum / count : 1;
 }
 
-bool MomentStatistics::is_in(Group group, std::size_t grain) const
+bool FrameStatistics::is_in(Group group, std::size_t grain) const
 {
   if (group == Group::all) return true;
   return split_ > 0 && (grains_.radius[grain] >= split_) == (group == Group::larger);
@@ -96,8 +96,8 @@ bool MomentStatistics::is_in(Group group, std::size_t grain) const
 
 /// Acceleration of every grain minus its contact forces over mass: an estimate of gravity. NaN if
 /// it is unknown, or if a wall's force was inferred from the grain.
-auto MomentStatistics::weights(const Frame<3>& frame, const Vectors& sums,
-                               const std::optional<MomentBefore>& before) const -> Vectors
+auto FrameStatistics::weights(const Frame<3>& frame, const Vectors& sums,
+                              const std::optional<FrameBefore>& before) const -> Vectors
 {
   const bool has_force = !frame.force.empty();
   Vectors weights(grains_.size(), Vec3::Constant(NAN));
@@ -113,7 +113,7 @@ auto MomentStatistics::weights(const Frame<3>& frame, const Vectors& sums,
   return weights;
 }
 
-GravityEstimate MomentStatistics::by_median(Group group, const Vectors& weights) const
+GravityEstimate FrameStatistics::by_median(Group group, const Vectors& weights) const
 {
   std::vector<std::size_t> members;
   for (std::size_t g = 0; g < weights.size(); ++g)
@@ -136,7 +136,7 @@ GravityEstimate MomentStatistics::by_median(Group group, const Vectors& weights)
 }
 
 /// Mean over the grains of a group, weighted by mass, so that the forces between them cancel.
-GravityEstimate MomentStatistics::by_mean(Group group, const Vectors& weights) const
+GravityEstimate FrameStatistics::by_mean(Group group, const Vectors& weights) const
 {
   GravityEstimate estimate;
   Vec3 sum = Vec3::Zero();
@@ -151,7 +151,7 @@ GravityEstimate MomentStatistics::by_mean(Group group, const Vectors& weights) c
   return estimate;
 }
 
-double MomentStatistics::acceleration(const Frame<3>& frame) const
+double FrameStatistics::acceleration(const Frame<3>& frame) const
 {
   const auto sizes = sizes_of_forces(grains_.size(), frame.contacts);
   std::vector<double> values;
@@ -162,7 +162,7 @@ double MomentStatistics::acceleration(const Frame<3>& frame) const
 
 /// True for each grain without contact force in both frames.
 std::vector<bool> free_grains(const Frame<3>& frame, const std::vector<Vec3>& sums,
-                              const MomentBefore& before)
+                              const FrameBefore& before)
 {
   std::vector<bool> is_free(sums.size());
   for (std::size_t g = 0; g < sums.size(); ++g)
@@ -173,8 +173,8 @@ std::vector<bool> free_grains(const Frame<3>& frame, const std::vector<Vec3>& su
 
 /// Adds displacements and velocities of grains whose velocity is steady, or changes along the force
 /// in free flight: then the mean velocity of two frames is the mean over the time between them.
-void MomentStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const MomentBefore& before,
-                                  const std::vector<bool>& is_free, bool has_images) const
+void FrameStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const FrameBefore& before,
+                                 const std::vector<bool>& is_free, bool has_images) const
 {
   SlopeSums sums;
   const double time = frame.time - before.time;
@@ -203,9 +203,8 @@ void MomentStatistics::add_motion(SlopeSums& all, const Frame<3>& frame, const M
 
 /// Adds forces and accelerations of grains with a steady force that have no contacts, or if frames
 /// are consecutive steps: in a collision the mean of two forces is less than the force between.
-void MomentStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame,
-                                   const MomentBefore& before,
-                                   const std::vector<bool>& is_free) const
+void FrameStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame, const FrameBefore& before,
+                                  const std::vector<bool>& is_free) const
 {
   if (frame.force.empty()) return;
   const bool each_step = frame.step == before.step + 1;
@@ -218,27 +217,27 @@ void MomentStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame,
   }
 }
 
-void MomentStatistics::add_to(CheckMoment& moment, const Frame<3>& frame, const Vectors& sums,
-                              const std::optional<MomentBefore>& before, bool close,
-                              bool has_images) const
+void FrameStatistics::add_to(CheckFrame& numbers, const Frame<3>& frame, const Vectors& sums,
+                             const std::optional<FrameBefore>& before, bool close,
+                             bool has_images) const
 {
-  moment.acceleration = acceleration(frame);
+  numbers.acceleration = acceleration(frame);
   auto weights = this->weights(frame, sums, before);
   const bool medians = close || !frame.force.empty();
-  moment.medians = medians ? 1 : 0;
+  numbers.medians = medians ? 1 : 0;
   if (medians)
     for (std::size_t c = 0; c < frame.contacts.size(); ++c)
       if (frame.contacts.j[c] < 0) weights[row(frame.contacts.i[c])].setConstant(NAN);
   const auto estimate = [&](Group group) {
     return medians ? by_median(group, weights) : by_mean(group, weights);
   };
-  moment.all = estimate(Group::all);
-  moment.smaller = estimate(Group::smaller);
-  moment.larger = estimate(Group::larger);
+  numbers.all = estimate(Group::all);
+  numbers.smaller = estimate(Group::smaller);
+  numbers.larger = estimate(Group::larger);
   if (!before) return;
   const auto is_free = free_grains(frame, sums, *before);
-  add_motion(moment.motion, frame, *before, is_free, has_images);
-  add_inertia(moment.force, frame, *before, is_free);
+  add_motion(numbers.motion, frame, *before, is_free, has_images);
+  add_inertia(numbers.force, frame, *before, is_free);
 }
 
 }  // namespace grseg

@@ -60,7 +60,7 @@ class TwoJobs : public testing::Test {
 
 const Kept four_alike{{0, false}, {100, false}, {200, false}, {300, false}};
 
-TEST_F(TwoJobs, ThatWroteTheSameMomentsCountThemOnce)
+TEST_F(TwoJobs, ThatWroteTheSameFramesCountThemOnce)
 {
   const auto s = jobs({0, 100, 200}, {100, 200, 300}, first_place);
   EXPECT_EQ(kept(s), four_alike);
@@ -77,7 +77,7 @@ TEST_F(TwoJobs, MayHaveFilesOfTheirOwn)
   EXPECT_EQ(kept(s), four_alike);
 }
 
-TEST_F(TwoJobs, ThatWroteOtherMomentsAtTheSameStepsAreAskedAbout)
+TEST_F(TwoJobs, ThatWroteOtherFramesAtTheSameStepsAreAskedAbout)
 {
   const auto s = jobs({0, 100, 200}, {100, 200, 300}, other_place);
   EXPECT_EQ(refusal(s).code, exit_usage);
@@ -96,7 +96,7 @@ TEST_F(TwoJobs, AreNamedByTheirStepsToTheLastDigit)
   EXPECT_TRUE(mentions(refusal(s).sentence, "step 12345678906 comes after 12345678911: if a job"));
 }
 
-TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersMoments)
+TEST_F(TwoJobs, MayHaveWrittenBetweenEachOthersFrames)
 {
   const auto s = jobs({0, 100, 200}, {150, 250}, other_place);
   EXPECT_TRUE(mentions(refusal(s).sentence, "step 150 comes after 200: if a job began again"));
@@ -150,7 +150,7 @@ class KilledJob : public TwoJobs {
   }
 };
 
-TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInTheSameFile)
+TEST_F(KilledJob, LeavesTheRestOfAFrameToTheNextOneInTheSameFile)
 {
   for (const auto missing : {one_row, one_row + 8})  // to the end of a row, and inside a row
     expect_is_left_out(settings(folder,
@@ -159,7 +159,7 @@ TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInTheSameFile)
                                 contacts_of_job({0, 100, 200}) + contacts_of_job({200, 300})));
 }
 
-TEST_F(KilledJob, LeavesTheRestOfAMomentToTheNextOneInAnotherFile)
+TEST_F(KilledJob, LeavesTheRestOfAFrameToTheNextOneInAnotherFile)
 {
   for (const auto missing : {one_row, one_row + 8}) {
     auto s = settings(folder, cut(grains_of_job({0, 100, 200}, first_place), missing),
