@@ -14,7 +14,7 @@ namespace {
 /// mean then differs from the mean over the time between them by at most half of this fraction.
 constexpr double steady = 0.2;
 /// Sine of the largest angle between the change of velocity in free flight and the force.
-constexpr double along = 0.05;
+constexpr double largest_sine = 0.05;
 /// A bed at rest oscillates, with amplitudes below the overlaps, and frames may show any phase: the
 /// mean velocity of two frames is then not the mean over the time between them. Oscillation is
 /// excluded if grains have moved by has_moved diameters (root mean square), or if the frames are at
@@ -35,7 +35,8 @@ bool is_steady(const Vec3& before, const Vec3& now)
 
 bool is_along(const Vec3& change, const Vec3& force)
 {
-  return change.dot(force) > std::sqrt(1 - along * along) * change.norm() * force.norm();
+  return change.dot(force) >
+         std::sqrt(1 - largest_sine * largest_sine) * change.norm() * force.norm();
 }
 
 /// Sum of the magnitudes of the contact forces on each grain.
