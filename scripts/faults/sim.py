@@ -56,7 +56,7 @@ FAULTS = [
      "    store(n, block.impulse_n, lane);",
      "    store(hn::Zero(d), block.impulse_n, lane);"),
     ("warm start: impulses of contacts that have ended are kept", "sim/step/simulation.cpp",
-     "    grseg::forget_impulses<D>(pairs_.pairs(), contacts_, pairs_.memories(), threads_);",
+     "    grseg::forget_impulses<D>(contacts_, pairs_.pairs(), threads_);",
      "    (void)0;"),
     ("warm start: guessed but not applied", "sim/solver/solver.cpp",
      "      apply_impulses<D>(strips[s].blocks, motion.data(), task.effects);",
@@ -196,13 +196,41 @@ FAULTS = [
     ("single precision: increments are not given their mass", "sim/solver/single_contacts.cpp",
      "c.impulse_t[k] + single(from.impulse_t[k]) * c.mass_n;",
      "c.impulse_t[k] + single(from.impulse_t[k]);"),
+    ("spheres: sliding includes the motion along the normal", "sim/contact/contact_law-inl.hpp",
+     "return velocity - along_n * n;", "return velocity;"),
+    ("spheres: spins move surfaces the wrong way", "sim/contact/contact_law-inl.hpp",
+     "return cross(rim, n);", "return cross(n, rim);"),
+    ("spheres: friction turns grains the wrong way", "sim/contact/contact_law-inl.hpp",
+     "return cross(n, tangential);", "return cross(tangential, n);"),
+    ("spheres: friction is not limited", "sim/contact/contact_law-inl.hpp",
+     "const auto longer = squared > most * most;", "const auto longer = squared < number<V>(0);"),
+    ("spheres: friction of single precision is not limited", "sim/contact/contact_law-inl.hpp",
+     "const auto slips = squared > limit * limit;", "const auto slips = squared > limit * limit * number<V>(1e30);"),
+    ("spheres: friction of single precision is twice its limit", "sim/contact/contact_law-inl.hpp",
+     "const auto kept = inverse_root(squared) *", "const auto kept = number<V>(2) * inverse_root(squared) *"),
+    ("spheres: friction leaves the tangent plane", "sim/contact/contact_law-inl.hpp",
+     "return t - dot(t, n) * n;", "return t;"),
+    ("spheres: the moment of inertia is that of discs", "sim/contact/contact_law.hpp",
+     "constexpr double rim_factor = 1 / inertia_factor<D>;", "constexpr double rim_factor = 2;"),
+    ("spheres: pairs across z are not shifted", "sim/neighbours/detection.cpp",
+     "z + geometry.second}, reach}", "z}, reach}"),
+    ("spheres: pairs across z are not found", "sim/neighbours/pair_search.cpp",
+     "if (D == 2 || length_[D - 2] == 0 || slices_ == 1) return;", "return;"),
+    ("spheres: pairs are tested too late", "sim/neighbours/completeness.hpp",
+     "return neighbours_moved_ + (skin_ - slack_) <= distance;", "return neighbours_moved_ / 3 <= distance;"),
+    ("spheres: approaches are not stored", "sim/neighbours/detection.cpp",
+     "pairs.approach[at[lane] / memory_doubles] = approach[lane];", "pairs.approach[at[lane] / memory_doubles] = 0;"),
+    ("spheres: rims of bodies are mixed up in single precision", "sim/contact/bodies-inl.hpp",
+     "  first = even;", "  (void)even;"),
+    ("spheres: spins are changed the wrong way outside sweeps", "sim/contact/bodies-inl.hpp",
+     "{minus(spin[0]), minus(spin[1]), minus(spin[2]), zero}", "{spin[0], spin[1], spin[2], zero}"),
 ]
 
 ARGUED = set()
 LIBRARY = "grseg_simulator"
 FOLDER = "sim"  # folder of the library
 HARD = ["impacts", "falls", "rolling", "columns", "stacks", "overlaps", "sizes", "balances",
-        "invariances", "newcomer", "extremes", "slopes"]
+        "invariances", "newcomer", "extremes", "slopes", "spheres"]
 UNIT = ["contact_law", "sweep", "single_contacts", "solver", "wavefront", "detection", "pair_list", "simulation", "restart",
         "divided_step", "effects", "energy_balance", "boundary_body", "wedged_grains"]
 # This test stops the processor after every instruction and takes minutes, so it runs only if no other test fails.
