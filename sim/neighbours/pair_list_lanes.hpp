@@ -49,7 +49,7 @@ struct Search {
 };
 
 /// Pairs in the order of their first body a: pairs begin[a] .. begin[a+1]-1, with second bodies b.
-/// Pairs of spheres from far[a] on have a gap above near_part of the skin; those of discs are not
+/// Pairs of spheres from far[a] on have a gap above near_part of the skin; pairs of discs are not
 /// told apart.
 struct FoundPairs {
   std::vector<std::uint32_t> begin, far, b;

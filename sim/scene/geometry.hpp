@@ -68,7 +68,7 @@ struct Geometry {
   void (*describe)(const Scene& scene, Parameters& parameters) = nullptr;
 };
 
-/// What Geometry::room_at and Geometry::bed_area return for a scene, or the default if its geometry
+/// Results of Geometry::room_at and Geometry::bed_area for a scene, or the default if its geometry
 /// has no such function.
 Room room_at(const Scene& scene, double y);
 double bed_area(const Scene& scene);
