@@ -1,4 +1,4 @@
-"""Collides pairs of discs in each program and reports the resulting restitution and inertia.
+"""Collides pairs of grains in each program and reports the resulting restitution and inertia.
 
 Five pairs, small-small, large-small, large-large, small-base, large-base, far apart and without
 gravity, fly at each other with some sliding. From the velocities before and after:
@@ -14,7 +14,7 @@ import os
 
 import numpy as np
 
-from .soft_discs import Plan
+from .soft_grains import Plan
 from .state import BASE, LARGE, SMALL, State, WRITERS
 
 PAIRS = {"SS": (SMALL, SMALL), "LS": (LARGE, SMALL), "LL": (LARGE, LARGE), "Sb": (SMALL, BASE),
@@ -23,8 +23,8 @@ APPROACH, SLIDING = 1.0, 0.3  # sqrt(g d_S)
 CLEARANCE = 0.02              # d_S, before the collision
 
 
-def pairs_state():
-    """State with pairs of discs: the first above the second, falling on it and sliding along x."""
+def pairs_state(dimension):
+    """State with pairs of grains: the first above the second, falling on it and sliding along x."""
     type_, radius, position, velocity = [], [], [], []
     for k, (upper, lower) in enumerate(PAIRS.values()):
         r = [0.5 if kind == SMALL else 1.0 for kind in (upper, lower)]
@@ -33,8 +33,11 @@ def pairs_state():
         radius += r
         position += [[x - SLIDING * CLEARANCE / APPROACH, r[0] + r[1] + CLEARANCE], [x, 0]]
         velocity += [[SLIDING, -APPROACH], [0, 0]]
-    return State(70.0, np.array(type_), np.array(radius), np.array(position, float),
-                 np.array(velocity, float), np.zeros(len(type_)))
+    position, velocity = (np.pad(np.array(field, float), ((0, 0), (0, dimension - 2)))
+                          for field in (position, velocity))
+    spin = np.zeros(len(type_) if dimension == 2 else (len(type_), 3))
+    return State(70.0, np.array(type_), np.array(radius), position, velocity, spin,
+                 width=1.0 if dimension == 2 else 10.0)
 
 
 def collide(program, data, folder, core):
@@ -50,9 +53,9 @@ def collide(program, data, folder, core):
     return found
 
 
-def check(programs, folder, core):
+def check(programs, dimension, folder, core):
     """Rows (program, pair, e, e at 1/20 of the step, inertia factor)."""
-    state = pairs_state()
+    state = pairs_state(dimension)
     data = {"state": state, "folder": folder}
     os.makedirs(folder, exist_ok=True)
     for form, write in WRITERS.items():

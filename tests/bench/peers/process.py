@@ -23,6 +23,7 @@ class Sample:
     steps: int            # number of steps in the timed part
     step: float
     mean_overlap: float   # mean overlap of overlapping pairs
+    mobile_overlap: float  # the same, of pairs of mobile grains
     mean_gap: float       # mean |gap| of contacts with a force
     largest_overlap: float
     contacts: float       # number of contacts with a force

@@ -1,4 +1,4 @@
-"""Mean velocity of the mobile grains per half second, soft and rigid discs from the same state.
+"""Mean velocity of the mobile grains per half second, soft and rigid grains from the same state.
 
 Each curve has its own file, NAME.tsv, written when its run has ended; existing curves are kept, so that
 an interrupted comparison continues where it stopped.
@@ -8,15 +8,15 @@ import sys
 
 import numpy as np
 
-from .rigid_discs import FRAME_INTERVAL, mean_velocities, RigidDiscs
-from .soft_discs import Plan
+from .rigid_grains import FRAME_INTERVAL, mean_velocities, RigidGrains
+from .soft_grains import Plan
 
 INTERVAL = 0.5  # s
 
 
 def curve(program, data, seconds, folder, core):
     """Rows (time since the state in s, mean velocity in sqrt(g d_S))."""
-    if isinstance(program, RigidDiscs):
+    if isinstance(program, RigidGrains):
         program.run(folder, data, seconds + FRAME_INTERVAL, core)
         time, velocity = mean_velocities(os.path.join(folder, "run.h5"), data["units"])
         since = time - data["flow"]

@@ -1,7 +1,8 @@
-"""Runs of other programs (peers), LAMMPS, LIGGGHTS and YADE: soft discs with linear springs, from one state.
+"""Runs of other programs (peers), LAMMPS, LIGGGHTS and YADE: soft grains with linear springs, from one state.
 
-Units d_S = g = rho = 1 throughout; kn is the normal stiffness, two small discs of mass pi/4 collide
-for pi/(w sqrt(1 - z^2)), w^2 = kn/m, m = pi/8, and the step is 1/20 of that.
+Units d_S = g = rho = 1 throughout; kn is the normal stiffness, two small grains (mass pi/4 of a disc,
+pi/6 of a sphere) collide for pi/(w sqrt(1 - z^2)), w^2 = kn/m, m half of their mass, and the step is
+1/20 of that.
 """
 import dataclasses
 import math
@@ -18,20 +19,22 @@ from .state import BASE, LARGE, SMALL
 HERE = os.path.dirname(os.path.abspath(__file__))
 RESTITUTION = 0.25
 DAMPING_RATIO = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
-MASS = {BASE: math.inf, LARGE: math.pi, SMALL: math.pi / 4}
+MASS = {2: {BASE: math.inf, LARGE: math.pi, SMALL: math.pi / 4},
+        3: {BASE: math.inf, LARGE: math.pi * 4 / 3, SMALL: math.pi / 6}}  # by dimension
+SKIN = {2: 0.6, 3: 0.4}  # with which the peers are fastest, by dimension
 
 
-def reduced_mass(a, b):
-    return 1 / (1 / MASS[a] + 1 / MASS[b])
+def reduced_mass(a, b, dimension=2):
+    return 1 / (1 / MASS[dimension][a] + 1 / MASS[dimension][b])
 
 
-def damping(kn, a, b):
+def damping(kn, a, b, dimension=2):
     """Damping gamma_n per unit of reduced mass that gives restitution e between nominal grains of types a and b."""
-    return 2 * DAMPING_RATIO * math.sqrt(kn / reduced_mass(a, b))
+    return 2 * DAMPING_RATIO * math.sqrt(kn / reduced_mass(a, b, dimension))
 
 
-def time_step(kn):
-    w = math.sqrt(kn / reduced_mass(SMALL, SMALL))
+def time_step(kn, dimension=2):
+    w = math.sqrt(kn / reduced_mass(SMALL, SMALL, dimension))
     return math.pi / (w * math.sqrt(1 - DAMPING_RATIO**2)) / 20
 
 
@@ -82,13 +85,13 @@ class Result:
     end: np.ndarray       # rows id vx vy omega
 
 
-class SoftDiscs:
+class SoftGrains:
     """Runs one program with one stiffness."""
     trial = 1000  # steps of a trial that shows how many steps fill the requested time
 
-    def __init__(self, kn):
-        self.kn = kn
-        self.step = time_step(kn)
+    def __init__(self, kn, dimension=2):
+        self.kn, self.dimension = kn, dimension
+        self.step = time_step(kn, dimension)
 
     def missing(self):
         return None if shutil.which(self.executable) else self.package
@@ -97,16 +100,22 @@ class SoftDiscs:
         """Times `steps` steps, after a warm-up in which the contacts build their overlap."""
         plan = Plan(timed=round(steps))
         result = self.run(folder, data, plan, core)
-        overlaps = np.concatenate(self.overlaps(folder, data))
-        overlaps = overlaps[overlaps > 0]
+        contacts = self.contacts(folder, data)
+        contacts = contacts[contacts[:, 2] > 0]
+        overlaps = contacts[:, 2]
+        mobile = data["state"].mobile[contacts[:, :2].astype(int) - 1].all(axis=1)
         second = data["units"].time
         return process.Sample(
             command=self.command_line(data, plan), cost=result.cost, wall=result.wall,
             steps=plan.timed, step=self.step * second, mean_overlap=overlaps.mean(),
-            mean_gap=overlaps.mean(), largest_overlap=overlaps.max(),
-            contacts=len(overlaps) / plan.frames,
+            mobile_overlap=overlaps[mobile].mean(), mean_gap=overlaps.mean(),
+            largest_overlap=overlaps.max(), contacts=len(overlaps) / plan.frames,
             velocity=result.end[data["state"].mobile, 1].mean(),
             flow=plan.steps * self.step * second)
+
+    def contacts(self, folder, data):
+        """Rows id, id, overlap of every pair in every list of contacts."""
+        return np.concatenate(read_rows(os.path.join(folder, "contacts.dump"), "ITEM: ENTRIES"))
 
     def command_line(self, data, plan):
         command, environment = self.command(data, plan)
@@ -120,9 +129,12 @@ class SoftDiscs:
                       read_rows(os.path.join(folder, "end.dump"), "ITEM: ATOMS")[-1])
 
     def command(self, data, plan):
-        variables = dict(data=data[self.data], kn=repr(self.kn), dt=repr(self.step), skin="0.6",
-                         gravity=plan.gravity, warm=plan.warm, steps=plan.timed, every=plan.every,
-                         frames=plan.frames, slice=plan.slice, **self.damping_variables())
+        variables = dict(data=data[self.data], kn=repr(self.kn), dt=repr(self.step),
+                         skin=SKIN[self.dimension], gravity=plan.gravity, warm=plan.warm,
+                         steps=plan.timed, every=plan.every, frames=plan.frames, slice=plan.slice,
+                         **self.damping_variables())
+        if self.dimension == 3:
+            variables.update(dimension=3, slope=data["state"].slope)
         return [self.executable, "-in", os.path.join(HERE, self.input), "-log", "log", "-screen",
                 "none", *(word for name, value in variables.items()
                           for word in ("-var", name, str(value)))], None
@@ -137,29 +149,29 @@ class SoftDiscs:
                 re.findall(r"^ *(\d+) +(-?[0-9.e+-]+) *$", read(folder, "log"), re.M)]
 
 
-class Lammps(SoftDiscs):
+class Lammps(SoftGrains):
     executable, package, input, data = "lmp", "lammps", "chute.lammps", "data"
 
-    def __init__(self, kn, style="granular"):
-        super().__init__(kn)
+    def __init__(self, kn, style="granular", dimension=2):
+        super().__init__(kn, dimension)
         self.style = style
         self.name = f"LAMMPS {kn:.0e}".replace("e+0", "e") + (" hooke" if style == "hooke" else "")
         self.method = (f"soft, kn {kn:g}, e 0.25" if style == "granular" else
-                       f"soft, kn {kn:g}, gran/hooke/history: e 0.25 small, 0.01 large")
+                       f"soft, kn {kn:g}, gran/hooke/history: e 0.25 small, "
+                       f"{'0.01' if dimension == 2 else '0'} large")
 
     def damping_variables(self):
         return {"style": self.style,
                 "damping": tsuji_argument() if self.style == "granular"
-                else damping(self.kn, SMALL, SMALL)}
+                else damping(self.kn, SMALL, SMALL, self.dimension)}
 
-    def overlaps(self, folder, data):
-        radius = data["state"].radius
-        lists = read_rows(os.path.join(folder, "contacts.dump"), "ITEM: ENTRIES", skip=1)
-        return [radius[c[:, 0].astype(int) - 1] + radius[c[:, 1].astype(int) - 1] - c[:, 2]
-                for c in lists]
+    def contacts(self, folder, data):
+        rows = super().contacts(folder, data)[:, 1:]  # a list's first column counts, its last is a distance
+        rows[:, 2] = data["state"].radius[rows[:, :2].astype(int) - 1].sum(axis=1) - rows[:, 2]
+        return rows
 
 
-class Liggghts(SoftDiscs):
+class Liggghts(SoftGrains):
     executable, package, input, data = "liggghts", "liggghts", "chute.liggghts", "data"
 
     def __init__(self, kn):
@@ -172,11 +184,8 @@ class Liggghts(SoftDiscs):
                  "BS": (BASE, SMALL), "BL": (BASE, LARGE)}
         return {"d" + name: repr(damping(self.kn, *pair)) for name, pair in pairs.items()}
 
-    def overlaps(self, folder, data):
-        return third_column(folder)
 
-
-class Yade(SoftDiscs):
+class Yade(SoftGrains):
     executable, package, data = "yade", "yade", "text"
 
     def __init__(self, kn):
@@ -194,21 +203,14 @@ class Yade(SoftDiscs):
     def timed_wall(self, folder):
         return float(re.search(r"TIMED ([0-9.e+-]+) s", read(folder, "run.log")).group(1))
 
-    def overlaps(self, folder, data):
-        return third_column(folder)
-
-
-def third_column(folder):
-    return [c[:, 2] for c in read_rows(os.path.join(folder, "contacts.dump"), "ITEM: ENTRIES")]
-
 
 def read(folder, name):
     with open(os.path.join(folder, name)) as text:
         return text.read()
 
 
-def read_rows(path, head, skip=0):
-    """Blocks of numbers under the lines that begin with `head`, without their first columns."""
+def read_rows(path, head):
+    """Blocks of numbers under the lines that begin with `head`."""
     blocks, rows = [], None
     with open(path) as text:
         for line in text:
@@ -217,7 +219,7 @@ def read_rows(path, head, skip=0):
                 if rows is not None:
                     blocks.append(rows)
             elif rows is not None:
-                rows.append([float(word) for word in line.split()[skip:]])
+                rows.append([float(word) for word in line.split()])
     if not blocks:
         sys.exit(f"compare-peers: {path}: holds no '{head}'")
     return [np.array(block) for block in blocks]

@@ -11,11 +11,11 @@ import numpy as np
 from . import process
 from .state import read_run, WRITERS
 
-STATE_STEP = 1e-4  # s; with it, overlaps in the state are about those of soft discs with kn 1e5
+STATE_STEP = 1e-4  # s; with it, overlaps of discs in the state are about those of soft ones with kn 1e5
 FRAME_INTERVAL = 0.05  # s, as in the scene; grseg-sim fits its step into it, so that another value gives another run
 
 
-def make_state(program, scene, flow, folder, core):
+def make_state(program, scene, dimension, flow, folder, core):
     """Writes the state after `flow` seconds in all formats that the programs read; existing files are kept.
 
     The state for other programs is the one after the first step beyond the checkpoint, because frames are at mid-step.
@@ -35,6 +35,9 @@ def make_state(program, scene, flow, folder, core):
     if abs(time - flow - STATE_STEP) > STATE_STEP / 2:
         sys.exit(f"compare-peers: {run} is of {time:g} s of flow, not of {flow:g} s; remove it, "
                  "or choose another folder")
+    if state.dimension != dimension:
+        sys.exit(f"compare-peers: {run} has {state.dimension} dimensions, not {dimension}; remove it, "
+                 "or choose another folder")
     data = {"state": state, "units": units, "flow": flow, "folder": folder}
     for form, write in WRITERS.items():
         data[form] = os.path.join(folder, "state." + form)
@@ -47,7 +50,7 @@ def checkpoint_of(folder):
     return os.path.join(folder, "state.chk")
 
 
-class RigidDiscs:
+class RigidGrains:
     """Runs grseg-sim with given options."""
     trial = 0.5  # flow of a trial, s, that shows how much fills the requested time
 
@@ -96,18 +99,23 @@ def mean_velocities(path, units):
 
 
 def observables(path, units, since):
-    """Means of the run's observables over the steps after `since` (s)."""
+    """Means of the run's observables over the steps after `since` (s); mobile overlaps are those of its frames."""
     with h5py.File(path, "r") as run:
         time = run["particles/grains/position/time"][:]
         of = {name: run[f"observables/{name}/value"][:][time > since] for name in
               ("steps", "touching", "contacts", "mean_overlap", "largest_overlap", "mean_gap")}
         if not of["steps"].sum() > 0:
             sys.exit(f"compare-peers: {path}: holds no frame after {since:g} s; allow more --seconds")
+        offset = run["grseg/contacts/offset"][:]
+        shown = slice(offset[:-1][time > since][0], offset[-1])
+        j, gap = (run[f"grseg/contacts/{name}"][shown] for name in ("j", "gap"))
+        mobile = (j >= 0) & (run["particles/grains/fixed"][:][j] == 0)  # i is always mobile
         mean = lambda values, weight: float((values * weight).sum() / weight.sum())
         d = units.length
         return {
             "step": float(run["parameters/step"][()]),
             "mean_overlap": mean(of["mean_overlap"], of["steps"] * of["touching"]) / d,
+            "mobile_overlap": -float(gap[mobile & (gap <= 0)].mean()) / d,
             "mean_gap": mean(of["mean_gap"], of["steps"] * of["contacts"]) / d,
             "largest_overlap": float(of["largest_overlap"].max()) / d,
             "contacts": mean(of["contacts"], of["steps"]),
