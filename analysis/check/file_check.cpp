@@ -24,7 +24,8 @@ std::vector<CheckLine> ContentCheck::lines() const
   const bool closed = run_.closed();
   const char* not_closed = "/grseg/seal is empty: the run was interrupted or goes on";
   const auto damaged =
-      damaged_ == 0 ? fmt::format("{} frames agree with their digests", frames_)
+      damaged_ == 0 ? frames_ == 1 ? "the frame agrees with its digest"
+                                   : fmt::format("{} frames agree with their digests", frames_)
                     : fmt::format("frame {} is the first that is not as written", first_damaged_);
   const auto missing = judged("not_closed", closed ? 0 : 1, 0, closed ? "" : not_closed),
              of_frames = judged("damaged_frames", static_cast<double>(damaged_), 0, damaged),

@@ -93,9 +93,11 @@ template class ForceBalance<2>;
 template class ForceBalance<3>;
 
 template <int D>
-TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box)
+TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box,
+                            double step)
 {
   TotalMotion<D> total;
+  Vector<D> force = Vector<D>::Zero();
   total.step = frame.step;
   total.time = frame.time;
   total.grains = which_are_absent(frame);
@@ -104,12 +106,15 @@ TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const B
     total.mass += grains.mass[g];
     total.momentum += grains.mass[g] * frame.velocity[g];
     total.energy += grains.mass[g] * frame.velocity[g].squaredNorm() / 2;
+    if (!frame.force.empty()) force += frame.force[g];
     Vector<D> place = frame.position[g];
     place.x() += frame.image[g][0] * box.length_x;
     if constexpr (D == 3) place.z() += frame.image[g][2] * box.length_z;
     total.centre += grains.mass[g] * place;
   }
-  if (total.mass > 0) total.centre /= total.mass;
+  if (!(total.mass > 0)) return total;
+  total.centre /= total.mass;
+  total.speed = (total.momentum - step / 2 * force) / total.mass;
   return total;
 }
 
@@ -135,13 +140,12 @@ void MotionBalance<D>::add(const TotalMotion<D>& now, const std::optional<Vector
     const double defect = (now.momentum - last_.momentum - between * (weight + *base_force)).norm();
     momentum_.add(scale > 0 ? defect / scale : defect, now.time, 0);
   }
-  if (now.mass > 0)
-    by_velocity_ += (now.momentum + last_.momentum) / 2 / now.mass * (now.time - last_.time);
+  by_velocity_ += (now.speed + last_.speed) / 2 * (now.time - last_.time);
   last_ = now;
 }
 
-template TotalMotion<2> total_motion(const Grains&, const Frame<2>&, const Box&);
-template TotalMotion<3> total_motion(const Grains&, const Frame<3>&, const Box&);
+template TotalMotion<2> total_motion(const Grains&, const Frame<2>&, const Box&, double);
+template TotalMotion<3> total_motion(const Grains&, const Frame<3>&, const Box&, double);
 template class MotionBalance<2>;
 template class MotionBalance<3>;
 

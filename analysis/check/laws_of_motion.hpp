@@ -69,7 +69,7 @@ class ForceBalance {
   Turning last_;  // spins and torques of the last frame added; empty before the first frame
 };
 
-/// Motion of all mobile grains of a frame as one body, with the velocities after the step.
+/// Motion of all mobile grains of a frame as one body. Velocities are as stored: after the step.
 template <int D>
 struct TotalMotion {
   std::int64_t step = 0;
@@ -78,17 +78,22 @@ struct TotalMotion {
   Vector<D> momentum = Vector<D>::Zero();  // total momentum, kg m/s
   double energy = 0;                       // kinetic energy of translation, J
   Vector<D> centre = Vector<D>::Zero();    // centre of mass, m, from unwrapped positions
+  Vector<D> speed = Vector<D>::Zero();     // velocity of the centre at the time of `centre`, m/s
   std::uint64_t grains = 0;                // which_are_absent() of the frame
 };
+
+/// `step` (s) is the time step of a frame with positions at the middle of a step and velocities at
+/// its end; 0 if both are of one instant, as in imported runs.
 template <int D>
-TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box);
+TotalMotion<D> total_motion(const Grains& grains, const Frame<D>& frame, const Box& box,
+                            double step);
 
 /// Checks the motion of all mobile grains as one body, from frame to frame:
 ///   momentum now - momentum before = (time between) (M g + mean force of base and walls).
 /// This holds to round-off if the mean force (/observables/base_force_x, _y, and _z for spheres) is
 /// over all steps between the two frames. Also compares the distance that the centre of mass moves
-/// with the integral of its velocity (trapezium rule). Pairs of frames with different grains are
-/// skipped, because both quantities are then undefined.
+/// with the integral of its velocity at the times of the positions (trapezium rule). Pairs of frames
+/// with different grains are skipped, because both quantities are then undefined.
 template <int D>
 class MotionBalance {
  public:

@@ -108,6 +108,7 @@ PhysicsCheck<D>::PhysicsCheck(const TrajectoryReader& run, const PhysicsSettings
       small_diameter_(run.small_diameter()),
       rules_(read_contact_rules(run)),
       rotation_(run.parameters().find_number("rotation").value_or(1) != 0),
+      frames_are_steps_(run.parameters().text("import_format").empty()),
       layers_(layers_of(run, settings.layer)),
       begin_(first_step(run, settings.windows)),
       end_(end_step(run, settings.windows)),
@@ -146,13 +147,14 @@ void PhysicsCheck<D>::add(std::size_t index, const Frame<D>& frame)
   const auto& grains = run_.grains();
   std::optional<Vector<D>> base;
   if (!base_force_.empty()) base = base_force_[index];
-  const auto total = total_motion(grains, frame, run_.box());
+  const double step = step_of_force(frame, run_.step());
+  const auto total = total_motion(grains, frame, run_.box(), frames_are_steps_ ? step : 0);
   motion_.add(total, base);
   if (in_window(index) && windows_[window_].frames.front() == index) begin_window(frame);
   has_force_ = has_force_ && !frame.force.empty();
   forces_.add(grains, frame);
   partials_.add(grains, frame);
-  contacts_.use_step(step_of_force(frame, run_.step()));
+  contacts_.use_step(step);
   contacts_.add(grains, frame);
   // At such small energies the energy defect is only round-off of the forces.
   const bool at_rest = total.energy < 1e-12 * total.mass * gravity_.norm() * small_diameter_;

@@ -85,6 +85,7 @@ class PhysicsCheck {
   double small_diameter_;
   ContactRules rules_;
   bool rotation_, has_force_ = true;
+  bool frames_are_steps_;  // false: imported frames, which are instants
   Layers layers_;
   std::int64_t begin_, end_;  // first checked time step, and the step after the last
   std::vector<Window> windows_;

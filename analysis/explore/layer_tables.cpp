@@ -270,6 +270,8 @@ Json layer_tables(FrameLoop& loop)
     else
       missing.push_back("grseg-balance needs the forces on grains, which the run does not have");
   });
+  if (const auto below = loop.about_grains_below(); !below.empty())
+    missing.push_back(printable(below));
   return all;
 }
 

@@ -54,7 +54,7 @@ inline constexpr Choice<Quantity> quantities[] = {
 enum class Component { yy, pressure };
 inline constexpr Choice<Component> components[] = {
     {"yy", Component::yy, "normal to the base"},
-    {"pressure", Component::pressure, "half the trace"}};
+    {"pressure", Component::pressure, "half the trace, of spheres a third"}};
 
 /// Conditions that a row of a table meets to be a point of the fit.
 struct FitFilters : RowFilter {

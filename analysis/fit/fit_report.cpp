@@ -353,7 +353,8 @@ std::string paper_text(const FitReport& report)
       line.push_back(b_text(report, fit.estimate(place)));
   }
   return '\n' + with_words_outside(lines) +
-         "stress of small over large grains: s phi_S/phi_L, or k (phi_S/phi_L)^a; s < 1 is B > 0\n";
+         "stress of small over large grains: s phi_S/phi_L, or k (phi_S/phi_L)^a; s < 1 means "
+         "B > 0\n";
 }
 
 /// Matrix of B under a rule: one row per larger species, one column per smaller species.

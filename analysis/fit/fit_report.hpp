@@ -75,8 +75,8 @@ std::string to_json(const FitReport& report);
 
 /// The report for a terminal. Each rule has B with its interval, the share of the mixed contacts'
 /// stress that large grains get, and the programs that use the rule. Then follow p*, the
-/// populations (the grains or times that each interval speaks for) and the doubts. Numbers have three decimals, or FitReport::digits significant
-/// digits; "-" replaces a missing number.
+/// populations (the grains or times that each interval speaks for) and the doubts. Numbers have
+/// three decimals, or FitReport::digits significant digits; "-" replaces a missing number.
 std::string short_table(const FitReport& report);
 
 }  // namespace grseg

@@ -45,9 +45,10 @@ constexpr FlowLine flow_lines[] = {{"dimension", "", "dimension"},
 /// Keys of a scene that are not compared: they do not matter for the flow, or the composition or
 /// another header line repeats them.
 constexpr std::string_view keys_left_out[] = {
-    "seed",    "duration",       "frame-interval", "burst",   "keep-deposition", "compression",
-    "store",   "small-diameter", "size-ratio",     "density", "friction",        "restitution",
-    "gravity", "slope",          "step",           "length",  "phi-large",       "large-grains"};
+    "seed",        "duration",    "frame-interval", "burst",      "keep-deposition",
+    "compression", "store",       "small-diameter", "size-ratio", "density",
+    "friction",    "restitution", "gravity",        "slope",      "step",
+    "length",      "phi-large",   "large-grains",   "width",      "dimension"};
 constexpr std::string_view keys_in_metres[] = {
     "depth",        "base-diameter", "base-height-spread", "base-spacing", "drum-diameter",
     "column-width", "outlet",        "shake-amplitude"};
@@ -235,8 +236,8 @@ void describe(Flow& flow, const std::vector<Flow>& all, const std::vector<FitTab
     });
   };
   flow.name = composition_words(flow);
-  const bool inclined = dimension_of(own) == 2 && own.has_header("gravity_x") &&
-                        own.has_header("gravity_y") && differ("gravity_x") && differ("gravity_y");
+  const bool inclined = own.has_header("gravity_x") && own.has_header("gravity_y") &&
+                        differ("gravity_x") && differ("gravity_y") && !differ("gravity_z");
   if (inclined) {
     flow.settings.emplace_back("slope[degree]", fmt::format("{:.12g}", slope_of(own)));
     flow.name += fmt::format(", slope = {:.4g} degrees", slope_of(own));

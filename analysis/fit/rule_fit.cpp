@@ -221,6 +221,7 @@ double zero_of_b(const FitData& data, const FitSettings& settings)
 
 // Influence of a window w is E_w/(-dE/dp) on p* and (dE_w/dp - dB/dp Q_w)/Q on dB/dp. E is the sum
 // of psi_L - phi_L over frames and layers, Q the sum of phi_L phi_S; E_w and Q_w are sums over w.
+// RunErrors subtracts multiples of the weights Q_w itself.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
                               const Bootstrap& bootstrap, Population over)
 {
@@ -240,7 +241,7 @@ LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
     return error_over(over, bootstrap, how_dependent, sampled, run_errors, influence);
   };
   return {{zero, error({at.value.excess() / -change, at.value.excess_noise() / -change})},
-          {slope, error({(at.derivative.excess() - slope * weight) / weight.sum(),
+          {slope, error({at.derivative.excess() / weight.sum(),
                          at.derivative.excess_noise() / weight.sum()})}};
 }
 

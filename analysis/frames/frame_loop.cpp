@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/frame_loop.hpp"
 
+#include "analysis/frames/grains_below.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
@@ -104,6 +105,15 @@ void FrameLoop::require_forces(const char* what, const char* remedy) const
         fmt::format("{}: /particles/grains/force, {}, is missing; {}", run_.path(), what, remedy));
 }
 
+std::string FrameLoop::about_grains_below() const
+{
+  if (most_below_ == 0) return "";
+  return fmt::format(
+      "{}: grains below the base, up to {} in a frame, belong to no layer and are not counted; maps "
+      "(--bins xy) contain them",
+      run_.path(), most_below_);
+}
+
 template <int D>
 void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Fields fields)
 {
@@ -113,6 +123,11 @@ void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Field
     packed = run_.load(index, frame, fields);
   }
   run_.unpack(packed, frame);
+  if (options_.bins != "layers") return;
+  const auto below = remove_grains_below(grouped_.grains, frame);
+  if (below == 0) return;
+  const std::lock_guard lock(reading_);
+  most_below_ = std::max(most_below_, below);
 }
 template void FrameLoop::read(std::size_t, Frame<2>&, TrajectoryReader::Fields);
 template void FrameLoop::read(std::size_t, Frame<3>&, TrajectoryReader::Fields);
@@ -121,6 +136,7 @@ namespace {
 
 const std::vector<std::string> all_bins{"layers", "radius", "radius:X,Y", "xy",
                                         "xz",     "rz",     "rz:X,Y"};
+const std::vector<std::string> bins_without_axis{"layers", "xy", "xz"};
 
 /// Throws UsageError if the options do not fit a map's file for other programs (.h5, .vti, .pvd).
 void check_map_output(const FrameOptions& options, const po::variables_map& values)
@@ -165,14 +181,20 @@ void FrameOptions::add_to(po::options_description& options, Makes makes)
     output.OutputOptions::add_to(options);
 }
 
-void FrameOptions::add_bins_to(po::options_description& options)
+void FrameOptions::add_bins_to(po::options_description& options, bool about_axis)
 {
+  const std::string text =
+      about_axis
+          ? "layers: parallel to the base. radius: annuli about a drum's axis; radius:X,Y: about "
+            "the axis at X,Y; y is then the distance from the axis, and x runs clockwise round it. "
+            "xy, in 3D also xz, rz and rz:X,Y: a map of square cells (r: distance from an axis "
+            "along z)"
+          : "layers: parallel to the base. xy, in 3D also xz: a map of square cells";
   options.add_options()(
-      "bins", word_option(&bins, all_bins),
-      "layers: parallel to the base. radius: annuli about a drum's axis; radius:X,Y: about the "
-      "axis at X,Y; y is then the distance from the axis, and x runs clockwise round it. xy, in 3D "
-      "also xz, rz and rz:X,Y: a map of square cells (r: distance from an axis along z), also for "
-      ".h5, .vti and .pvd files. --layer sets the thickness, or the side of a cell");
+      "bins", word_option(&bins, about_axis ? all_bins : bins_without_axis),
+      (text + ", also for .h5, .vti and .pvd files. --layer sets the thickness, or the side of a "
+              "cell")
+          .c_str());
 }
 
 std::optional<MapPlane> FrameOptions::map() const

@@ -40,8 +40,8 @@ struct FrameOptions {
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
   /// --quiet --group --classes --edges; for a table also --short --digits.
   void add_to(po::options_description& options, Makes makes = Makes::table);
-  /// Adds --bins, for tools that also offer annuli and maps.
-  void add_bins_to(po::options_description& options);
+  /// Adds --bins, for tools that also offer maps and, if `about_axis`, annuli and maps rz.
+  void add_bins_to(po::options_description& options, bool about_axis = true);
   /// Adds --part and --join, for tools of which each table row depends on one window only.
   void add_parts_to(po::options_description& options) { parts.add_to(options); }
 
@@ -87,6 +87,9 @@ class FrameLoop {
   /// unless the run stores these forces.
   void require_forces(const char* what, const char* remedy) const;
   const Layers& layers() const { return layers_; }
+  /// Sentence about the grains that were left out because they lie below the base
+  /// (grains_below.hpp); "" if there were none. Maps and annuli contain all grains.
+  std::string about_grains_below() const;
   double window_length() const { return windows_.length; }  // length of a window, s
   /// Windows to sum over: all of them, or the part that --part selects. None with --join, which
   /// reads the rows from the files of the parts.
@@ -125,7 +128,8 @@ class FrameLoop {
   Windows windows_;
   ProgressBar progress_;
   std::size_t frames_done_ = 0;
-  std::mutex reading_;  // protects the HDF5 library, which is not thread-safe
+  std::size_t most_below_ = 0;  // largest number of grains below the base in a frame
+  std::mutex reading_;  // protects the HDF5 library, which is not thread-safe, and most_below_
 };
 
 template <int D, class... Sums>

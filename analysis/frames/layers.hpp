@@ -26,7 +26,9 @@ double sphere_volume_below(double radius, double height);
 ///
 /// Layer n parallel to the base is [n h, (n+1) h), of volume V = Lx h in two dimensions and Lx Lz h
 /// in three. The last layer contains the top of the highest mobile grain; its volume is V. The
-/// first layer also includes everything below y = 0, and the last layer everything above it.
+/// first layer also includes everything below y = 0, and the last layer everything above it. A
+/// FrameLoop leaves out grains that are far below, such as grains that have left a hopper
+/// (grains_below.hpp).
 ///
 /// Annuli, as for a drum, lie about an axis along z: y is then the distance from the axis, and x
 /// runs clockwise round it, so that (x, y) is right-handed as over a base. Annulus n is [n h, (n+1)

@@ -236,6 +236,8 @@ void TableWriter::write(const std::string& next)
 {
   loop_.clear_progress();
   const auto& options = loop_.options();
+  if (const auto remark = loop_.about_grains_below(); !remark.empty() && !options.quiet)
+    fmt::print(stderr, "{}: {}\n", loop_.info().name, remark);
   const auto& output = options.output;
   if (options.parts.join > 0) table_ = joined();
   if (options.parts.part) table_.header.push_back(part_line(*options.parts.part));

@@ -64,8 +64,8 @@ struct Grid {
   Step used = 0;     // longest time between used frames
 
   Step begin_of(Step window) const { return begin + window * length; }
-  /// True if the run has begun at step `at`. The first frame represents up to `longest` steps before
-  /// it.
+  /// True if the run has begun at step `at`. The first frame represents up to `longest` steps
+  /// before it.
   bool has_begun(const RunTimes& run, Step at) const { return at > run.steps.front() - longest; }
 };
 

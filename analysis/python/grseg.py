@@ -427,9 +427,22 @@ class _Block:
         return self.run.mobile & ~np.isnan(self.grains("position")[..., 1])
 
     @functools.cached_property
+    def below(self):
+        """True for mobile grains that have left the bed through its base, as out of a hopper, and belong to no layer
+        (analysis/frames/grains_below.hpp) [F, N]."""
+        y, mobile = self.grains("position")[..., 1], self.run.mobile
+        boundary = np.nan_to_num(y[:, ~mobile]).min(axis=1, initial=0.0)
+        return mobile & (y < np.minimum(boundary, -2 * self.run.radius[mobile].max(initial=0.0))[:, None])
+
+    @functools.cached_property
+    def counted(self):
+        """True for mobile grains that are present and not below the bed [F, N]."""
+        return self.present & ~self.below
+
+    @functools.cached_property
     def mobile_grains(self):
-        """Indices in `heights` and rows of all mobile grains that are present, in the order of frames."""
-        place = np.flatnonzero(self.present)
+        """Indices in `heights` and rows of all grains that are `counted`, in the order of frames."""
+        place = np.flatnonzero(self.counted)
         return place, np.tile(np.arange(len(self.run.radius)), self.last - self.first).take(place)
 
     def _place(self, contact):
@@ -624,7 +637,7 @@ def _cut_into_windows(run, length, begin, end, stride):
 
 
 class _Layers:
-    """Layers of thickness h: layer n is [n h, (n+1) h). The first layer includes everything below it, and the
+    """Layers of thickness h: layer n is [n h, (n+1) h). The first layer includes what dips below y = 0, and the
     last layer of a frame everything above it (analysis/frames/layers.hpp)."""
 
     def __init__(self, thickness, length, width, path):
@@ -770,7 +783,7 @@ def _add_contents(run, layers, block, counts, content):
     """Adds areas or volumes of the grains to `content`, cut at the edges of layers."""
     place, grain = block.mobile_grains
     y, r, kind = block.heights.take(place), run.radius.take(grain), run.kind.take(grain)
-    last = np.repeat(counts - 1, block.present.sum(axis=1))
+    last = np.repeat(counts - 1, block.counted.sum(axis=1))
     n, last = np.minimum(layers.at(y - r), last), np.minimum(layers.at(y + r), last)
     whole = math.pi * r * r if run.dimension == 2 else 4 * math.pi / 3 * r * r * r
     below = np.zeros_like(r)
@@ -785,9 +798,12 @@ def _add_contents(run, layers, block, counts, content):
 def _add_contacts(run, layers, block, counts, number, sums, power):
     """Adds numbers and force (x) branch of force-bearing contacts to the layers of their contact points."""
     force, branch = block.contacts("force"), block.contacts("branch")
-    fields = [*force.T, *branch.T, block.contacts("gap"), block.contacts("i"), block.contacts("j"),
-              block.frame_of_contact]
-    rows = np.flatnonzero(sum(component != 0 for component in force.T))
+    i, j, frame = block.contacts("i"), block.contacts("j"), block.frame_of_contact
+    fields = [*force.T, *branch.T, block.contacts("gap"), i, j, frame]
+    pushing = sum(component != 0 for component in force.T) > 0
+    if block.below.any():
+        pushing &= ~(block.below[frame, i] | ((j >= 0) & block.below[frame, np.maximum(j, 0)]))
+    rows = np.flatnonzero(pushing)
     if len(rows) < len(force):
         fields = [field.take(rows) for field in fields]
     force, branch, (gap, i, j, frame) = fields[:run.dimension], fields[run.dimension:-4], fields[-4:]

@@ -7,6 +7,7 @@
 #include "formats/core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -223,6 +224,22 @@ Drawing Picture<D>::draw(const Frame<D>& frame) const
   auto drawing = draw_frame<D>(grains_.grains, frame, values, survey_.walls, view_, style_);
   drawing.gravity = view_.flat<D>(run_.gravity<D>().at(frame.time));
   return drawing;
+}
+
+template <int D>
+void Picture<D>::refuse_as_empty() const
+{
+  std::vector<std::string> selection, extent;
+  if (view_.slab) selection.push_back("the slice " + slab_text());
+  if (!settings_.region.empty())
+    selection.push_back(fmt::format("--region '{}'", settings_.region));
+  if (selection.empty()) return;
+  for (Eigen::Index axis = 0; axis < D; ++axis)
+    extent.push_back(
+        fmt::format("{} = {}", "xyz"[axis], lengths_text({survey_.low[axis], survey_.high[axis]})));
+  throw UsageError(fmt::format("no grain is in {}: the grains lie at {}{}",
+                               fmt::join(selection, " of "), fmt::join(extent, ", "),
+                               view_.slab ? "; choose another --slice, or use --project" : ""));
 }
 
 template <int D>

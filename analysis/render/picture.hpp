@@ -54,6 +54,9 @@ class Picture {
   TrajectoryReader::Fields needs() const { return survey_.needs; }
   /// Drawing of a frame. Several threads may call this function at once.
   Drawing draw(const Frame<D>& frame) const;
+  /// To be called if no drawing has a grain. Throws UsageError if a slice or region leaves all
+  /// grains out.
+  void refuse_as_empty() const;
   /// Paints one drawing per panel, and the legend.
   void paint(cairo_surface_t* surface, std::span<const Drawing> drawings) const;
 

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <vector>
@@ -55,6 +57,8 @@ void make_picture(const RenderSource& source)
     source.run.read(index, frame, picture.needs());
     drawings.push_back(picture.draw(frame));
   }
+  if (std::ranges::all_of(drawings, [](const auto& drawing) { return drawing.discs.empty(); }))
+    picture.refuse_as_empty();
   write_whole(
       source.settings.output,
       picture_bytes(source.kind, picture.page().size, parse_width(options.width).points,
@@ -81,6 +85,7 @@ void make_film(const RenderSource& source)
 
   std::mutex reading;
   std::size_t done = 0;
+  std::atomic<bool> has_grains = false;
   const auto pixels_of = [&](std::size_t k) {
     Frame<D> frame;
     TrajectoryReader::Packed packed;
@@ -90,6 +95,7 @@ void make_film(const RenderSource& source)
     }
     source.run.unpack(packed, frame);
     const std::vector<Drawing> drawings{picture.draw(frame)};
+    if (!drawings.front().discs.empty()) has_grains = true;
     return Pixels(picture.page().size,
                   [&](cairo_surface_t* page) { picture.paint(page, drawings); });
   };
@@ -99,6 +105,7 @@ void make_film(const RenderSource& source)
     progress.show(static_cast<double>(++done));
   });
   progress.clear();
+  if (!has_grains) picture.refuse_as_empty();
   film.finish();
   output.publish();
 }

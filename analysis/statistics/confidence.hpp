@@ -46,8 +46,8 @@ struct Measured {
 StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
 
 /// Error of a statistic whose observations scatter independently about a slow trend. Successive
-/// differences (von Neumann 1941) leave the trend out: error^2 = n/(n - 1) sum (difference)^2/2 with
-/// 2 (n - 1)/3 degrees of freedom.
+/// differences (von Neumann 1941) leave the trend out: error^2 = n/(n - 1) sum (difference)^2/2
+/// with 2 (n - 1)/3 degrees of freedom.
 StandardError error_about_trend(const Eigen::VectorXd& influence);
 
 /// Errors from whole runs, each of which is one observation.

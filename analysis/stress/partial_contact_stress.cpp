@@ -227,10 +227,11 @@ void ContactAssignmentOptions::add_to(po::options_description& options)
       "kernel-width", po::value(&width)->default_value(width)->value_name("LENGTH"),
       "width of the kernel: standard deviation of gauss, half the support of lucy "
       "and heaviside");
-  options.add_options()("composition", word_option(&composition, words_of(grain_areas)),
-                        "layers to which a grain's area is added: clipped: its part in each layer "
-                        "(default); centre: all in the layer of its centre (always in maps); "
-                        "kernel: spread by the kernel (default with a kernel)");
+  options.add_options()(
+      "composition", word_option(&composition, words_of(grain_areas)),
+      "layers to which a grain's area is added: clipped: its part in each layer (default); centre: "
+      "all in the layer of its centre (always in maps, and for spheres in annuli); kernel: spread "
+      "by the kernel (default with a kernel)");
 }
 
 ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values,

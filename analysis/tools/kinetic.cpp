@@ -80,8 +80,8 @@ void choose_mean_of_map(Settings& s, const po::variables_map& values)
   if (!s.frames.map() || (s.mean != "profile" && s.mean != "profile-unbiased")) return;
   if (!values["mean"].defaulted())
     throw UsageError(fmt::format(
-        "--mean {} is a profile over height, which a map does not have; use layer, instant or "
-        "instant-unbiased, which are means of the cell",
+        "--mean {} is a profile over height, which a map does not have; use layer, instant, "
+        "instant-unbiased or species, which are means of the cell",
         s.mean));
   s.mean = word_of(MeanFlow::layer, mean_flows);
 }

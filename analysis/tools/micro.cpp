@@ -42,7 +42,7 @@ po::options_description options_into(Settings& s)
       "layer of its centre)");
   add("friction", po::value(&s.friction)->value_name("MU"),
       "friction coefficient that decides which contacts slide (default: the run's)");
-  s.frames.add_bins_to(options);
+  s.frames.add_bins_to(options, false);
   s.frames.add_to(options);
   s.frames.add_parts_to(options);
   return options;
@@ -56,12 +56,12 @@ double friction_of(const Settings& s, const Parameters& parameters)
   return s.friction;
 }
 
-/// The choice of --composition. Throws UsageError for annuli, because tensors have components along
-/// x, y and z.
+/// The choice of --composition. Throws UsageError for bins about an axis, because tensors have
+/// components along x, y and z.
 GrainArea area_of(Settings& s, const po::variables_map& values)
 {
   const auto map = s.frames.map();
-  if (s.frames.annuli() || map == MapPlane::rz)
+  if (s.frames.bins != "layers" && map != MapPlane::xy && map != MapPlane::xz)
     throw UsageError(fmt::format("--bins {}: grseg-micro has layers, xy and xz", s.frames.bins));
   if (map && values["composition"].defaulted()) s.composition = "centre";
   const auto area = choose(s.composition, "--composition", areas);

@@ -104,11 +104,15 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
 
 void tabulate(Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto chosen =
-      s.assignment.contact_assignment(values, s.frames.map() ? "centre" : "clipped");
+  const bool default_in_annuli = s.frames.annuli() && s.assignment.composition.empty();
+  auto chosen = s.assignment.contact_assignment(values, s.frames.map() ? "centre" : "clipped");
   s.assignment.require_bins(chosen, s.frames);
   const auto how = stress_of(s);
   FrameLoop loop(info, values, s.frames);
+  if (default_in_annuli && loop.dimension() == 3) {  // spheres are not clipped at annuli
+    chosen.area = GrainArea::centre;
+    s.assignment.composition = word_of(chosen.area, grain_areas);
+  }
   with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, chosen, how, command); });
 }
 

@@ -83,12 +83,14 @@ void make_absent(Frame<D>& frame, std::size_t g)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   frame.position[g].setConstant(nan);
-  frame.image[g].fill(0);
-  frame.velocity[g].setConstant(nan);
-  if constexpr (D == 2)
-    frame.angular_velocity[g] = nan;
-  else
-    frame.angular_velocity[g].setConstant(nan);
+  if (!frame.image.empty()) frame.image[g].fill(0);
+  if (!frame.velocity.empty()) {
+    frame.velocity[g].setConstant(nan);
+    if constexpr (D == 2)
+      frame.angular_velocity[g] = nan;
+    else
+      frame.angular_velocity[g].setConstant(nan);
+  }
   if (!frame.force.empty()) frame.force[g].setConstant(nan);
 }
 

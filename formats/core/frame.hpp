@@ -158,7 +158,8 @@ bool is_mobile(const Grains& grains, const Frame<D>& frame, std::size_t g)
 template <int D>
 std::uint64_t which_are_absent(const Frame<D>& frame);
 
-/// Marks grain g as absent in a frame whose arrays already have one entry per grain.
+/// Marks grain g as absent in a frame whose arrays already have one entry per grain, or none if
+/// they were not read.
 template <int D>
 void make_absent(Frame<D>& frame, std::size_t g);
 

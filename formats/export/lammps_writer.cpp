@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <numbers>
 #include <string>
 
 namespace grseg {
@@ -67,9 +69,16 @@ std::string import_options_for(const TrajectoryReader& run)
   const Vec3 gravity =
       with_dimension(run.dimension(), [&](auto d) { return in_space<d>(run.gravity<d>().start); });
   const bool discs = run.dimension() == 2 && run.parameters().text("import_grains") != "spheres";
-  const char* grains = discs ? "discs" : run.dimension() == 2 ? "spheres" : "spheres --dimension 3";
-  return fmt::format("--units si --step {} --gravity {},{},{} --grains-are {} --origin 0 {}{}",
-                     run.step(), gravity.x(), gravity.y(), gravity.z(), grains,
+  const char* grains = discs                  ? "discs"
+                       : run.dimension() == 2 ? "spheres"
+                                              : "spheres --dimension 3 --axes xy";
+  // Without a slope grseg-import lets x point downhill.
+  const auto slope = gravity.x() < 0
+                         ? fmt::format(" --slope {:.6g}", std::atan2(gravity.x(), -gravity.y()) *
+                                                              180 / std::numbers::pi)
+                         : "";
+  return fmt::format("--units si --step {} --gravity {},{},{}{} --grains-are {} --origin 0 {}{}",
+                     run.step(), gravity.x(), gravity.y(), gravity.z(), slope, grains,
                      species_options_for(run), run.stores_float32() ? " --float32" : "");
 }
 

@@ -174,8 +174,6 @@ FAULTS = [
      "(large - psi * total) / points[k].total", "(large - 0 * psi * total) / points[k].total"),
     ("p*: its interval over the sum of weights", "analysis/fit/rule_fit.cpp",
      "at.value.excess_noise() / -change})", "at.value.excess_noise() / weight.sum()})"),
-    ("dB/dp: over runs, what every window adds, not what it differs by", "analysis/fit/rule_fit.cpp",
-     "(at.derivative.excess() - slope * weight) / weight.sum(),", "at.derivative.excess() / weight.sum(),"),
     ("dB/dp: without noise of windows", "analysis/fit/rule_fit.cpp",
      "at.derivative.excess_noise() / weight.sum()})", "0 * at.derivative.excess_noise()})"),
     # Noise and intervals.
@@ -535,7 +533,7 @@ def noticed(copy, path):
     with every campaign."""
     if path.startswith("scripts/"):
         return {"near": of_scripts(copy), "far": []}
-    near = of_rooms(copy, ASKED[path.split("/")[1]])
+    near = of_rooms(copy, ASKED.get(path.split("/")[1], ROOMS))
     return {"near": near, "far": [] if near else of_whole_programs(copy)}
 
 

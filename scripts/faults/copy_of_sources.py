@@ -107,12 +107,12 @@ def mark_of(fault):
 @contextlib.contextmanager
 def broken(copy, part, path, text):
     """Writes `text` into the file and compiles it. Afterwards restores file, object and library with their times, so
-    that nothing must be compiled again. Objects that a header or a program of the page broke are compiled again by the
-    next build."""
+    that nothing must be compiled again. Objects that a header, a source of another library or a program of the page broke
+    are compiled again by the next build."""
     source = f"{copy.tree}/{path}"
     build = f"{copy.tree}/build/{part.FOLDER}"
     made = [f"{build}/CMakeFiles/{part.LIBRARY}.dir/{os.path.relpath(path, part.FOLDER)}.o",
-            f"{build}/lib{part.LIBRARY}.so"] if path.endswith(".cpp") else []
+            f"{build}/lib{part.LIBRARY}.so"] if path.endswith(".cpp") and path.startswith(f"{part.FOLDER}/") else []
     compiled = path.endswith((".cpp", ".hpp", ".js"))
     for sound in [source, *made]:
         shutil.copy2(sound, sound + ".sound")

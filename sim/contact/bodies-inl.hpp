@@ -254,8 +254,8 @@ HWY_INLINE void exchange_blocks(V& first, V& second)
   first = even;
 }
 
-/// Eight members of several structs in two vectors of four, one struct per lane. Loads whole structs
-/// if vectors are wide enough.
+/// Eight members of several structs in two vectors of four, one struct per lane. Loads whole
+/// structs if vectors are wide enough.
 template <class Tag>
 HWY_INLINE void load_eights(Tag d, const float* from, const std::uint32_t* at, Fours<Tag>& first,
                             Fours<Tag>& second)

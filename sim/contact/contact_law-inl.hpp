@@ -120,8 +120,8 @@ HWY_INLINE V w_ratio(V kappa)
   return number<V>(1) + number<V>(rim_factor<D>) * kappa * kappa;
 }
 
-// Differences between discs, whose tangential vectors have one component along t = (-n_y, n_x), and
-// spheres.
+// The following functions differ between discs and spheres. A tangential vector of discs has one
+// component, along t = (-n_y, n_x).
 
 /// The part of `velocity` in the tangent plane; `along_n` is its part along n.
 template <class V>
@@ -146,7 +146,8 @@ HWY_INLINE Turning<3, V> turned(const Turning<3, V>& rim, const Along<3, V>& n)
 {
   return cross(rim, n);
 }
-/// n x tangential: direction in which a tangential impulse turns both bodies, apart from the sign.
+/// n x tangential. A tangential impulse changes the rim velocities of both bodies along this
+/// vector, with a negative factor.
 template <class V>
 HWY_INLINE Turning<2, V> turning(const Along<2, V>&, const Turning<2, V>& tangential)
 {
@@ -183,8 +184,8 @@ HWY_INLINE Turning<3, V> within(const Turning<3, V>& vector, V most)
   return choose(longer, most / root(choose(longer, squared, one)), one) * vector;
 }
 
-/// The part of a tangential impulse in the tangent plane of n: impulses of the previous step belong
-/// to another plane, and single precision does not stay in one.
+/// Removes from a tangential impulse its part along n. Impulses of the previous step lie in that
+/// step's tangent plane, and rounding in single precision leaves the plane.
 template <class V>
 HWY_INLINE Turning<2, V> in_plane(const Turning<2, V>& t, const Along<2, V>&)
 {
@@ -301,7 +302,8 @@ HWY_INLINE Turning<D, V> within_cone(const Increments<D, V>& c, const Turning<D,
     const V base = c.base_t[0];
     return {smaller(larger(wanted[0], (minus(held) - base) - more), (held - base) + more)};
   } else {
-    // A sticking contact keeps `wanted` to the last bit: increments are small beside the base.
+    // A sticking contact returns `wanted` itself: adding the base and subtracting it again would
+    // lose the last digits of the small increment.
     const auto whole = c.base_t + wanted;
     const V limit = held + more, squared = dot(whole, whole);
     const auto slips = squared > limit * limit;

@@ -113,8 +113,14 @@ inline LawParameters law_parameters(ContactLaw law, double horizon, double step,
 /// Components of a vector in D dimensions.
 template <int D, class Number>
 using Along = std::array<Number, D>;
-/// Components of a rotation, and of a tangential impulse: one for discs, which rotate about z and
-/// slide along t = (-n_y, n_x); three in space for spheres.
+/// A number for each axis that may be periodic: x, and in three dimensions z.
+template <int D, class Number = double>
+using Horizontal = std::array<Number, D - 1>;
+/// A number for each axis across x: y, and in three dimensions z.
+template <int D, class Number = double>
+using Across = std::array<Number, D - 1>;
+/// Components of an angular velocity or of a tangential impulse: one for discs (about z; along t),
+/// three for spheres.
 template <int D, class Number>
 using Turning = std::array<Number, D == 2 ? 1 : 3>;
 

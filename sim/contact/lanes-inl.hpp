@@ -14,7 +14,6 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -106,21 +105,17 @@ HWY_INLINE V root(V a)
   else
     return hn::Sqrt(a);
 }
-/// 1/sqrt(x) of a positive number in single precision, to 8e-7: Newton's method from a guess by the
-/// exponent, with constants that make its error least (Moroz et al., Appl. Math. Comput. 316, 245,
-/// 2018). A root and a division take longer; estimates of processors differ from each other.
+/// 1/sqrt(x) of a vector of positive numbers in single precision, to 8e-7: Newton's method from a
+/// guess by the exponent, with constants that make its error least (Moroz et al., Appl. Math.
+/// Comput. 316, 245, 2018). A root and a division take longer. The estimates that processors offer
+/// are not used, because they differ between processors.
 template <class V>
 HWY_INLINE V inverse_root(V x)
 {
   constexpr std::uint32_t guess = 0x5f376908;
-  V y;
-  if constexpr (is_number<V>) {
-    y = std::bit_cast<float>(guess - (std::bit_cast<std::uint32_t>(x) >> 1));
-  } else {
-    const hn::DFromV<V> d;
-    const hn::Repartition<std::uint32_t, decltype(d)> bits;
-    y = hn::BitCast(d, hn::Set(bits, guess) - hn::ShiftRight<1>(hn::BitCast(bits, x)));
-  }
+  const hn::DFromV<V> d;
+  const hn::Repartition<std::uint32_t, decltype(d)> bits;
+  V y = hn::BitCast(d, hn::Set(bits, guess) - hn::ShiftRight<1>(hn::BitCast(bits, x)));
   const V half = number<V>(0.5) * x;
   y = y * (number<V>(1.50087896) - (half * y) * y);
   return y * (number<V>(1.50000057) - (half * y) * y);
@@ -206,15 +201,6 @@ template <class V>
 HWY_INLINE std::array<V, 3> cross(const std::array<V, 3>& a, const std::array<V, 3>& b)
 {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-/// Size of a vector; of one component, its magnitude.
-template <class V, std::size_t n>
-HWY_INLINE V norm(const std::array<V, n>& a)
-{
-  if constexpr (n == 1)
-    return magnitude(a[0]);
-  else
-    return root(dot(a, a));
 }
 template <class Numbers, std::size_t n>
 HWY_INLINE auto load(const std::array<Numbers, n>& lanes, std::size_t lane)

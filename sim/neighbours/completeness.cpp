@@ -165,8 +165,8 @@ void Completeness<D>::measure_neighbours(std::size_t band)
   moved_in_band_[band] = std::sqrt(squared);
 }
 
-/// True if groups that are not neighbours cannot have met. Between them lies a whole band or a
-/// whole group, so their displacement may be larger by its height or width.
+/// True if groups that are not neighbours cannot have met. A whole band or group lies between them,
+/// so they may approach each other by its height or width, less cell_, more than neighbours may.
 template <int D>
 bool Completeness<D>::bands_stay_apart() const
 {

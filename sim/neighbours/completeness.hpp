@@ -34,8 +34,8 @@ class Completeness {
   /// `farthest`, m, relative to each other.
   bool holds(const std::vector<Position<D>>& made_at, const std::vector<Position<D>>& position,
              double farthest);
-  /// True if, at the positions of the last begin() or holds(), pairs of neighbouring groups that had
-  /// a gap above `distance`, m, when the list was made cannot touch.
+  /// True if, at the positions of the last begin() or holds(), pairs of neighbouring groups that
+  /// had a gap above `distance`, m, when the list was made cannot touch.
   bool keeps_apart_beyond(double distance) const
   {
     return neighbours_moved_ + (skin_ - slack_) <= distance;
@@ -52,8 +52,9 @@ class Completeness {
   void measure_neighbours(std::size_t band);
   /// Number of groups in a band.
   std::size_t per_band() const { return slices_ * first_group_.back(); }
-  /// Common extent of group g of a band and its neighbours to the right, above, behind and between
-  /// these. Any two neighbouring groups are part of one such square of four or cube of eight.
+  /// Common extent of the square of groups (in three dimensions: cube) whose first corner is group
+  /// g: g and its next neighbours to the right, above and behind. Any two neighbouring groups are
+  /// in one such square or cube.
   Extent<D> cube_at(const std::vector<Extent<D>>& groups, std::size_t band, std::size_t g) const;
   bool bands_stay_apart() const;
   bool walls_stay_away() const;

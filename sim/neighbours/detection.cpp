@@ -4,7 +4,6 @@
 #include "sim/contact/parallel.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 // Highway compiles the rest of this file once per instruction set.
@@ -15,19 +14,17 @@
 // clang-format off
 #include <hwy/foreach_target.h>
 #include "sim/contact/contact_law-inl.hpp"
+#include "sim/neighbours/pair_memories-inl.hpp"
 // clang-format on
 
 #ifndef GRSEG_SIM_DETECTION_LOOPS
 #define GRSEG_SIM_DETECTION_LOOPS
 namespace grseg {
 namespace {
-/// The loops below, compiled for an instruction set.
+/// find() below, compiled for an instruction set.
 template <int D>
-struct DetectionLoops {
-  void (*find)(const Pairs<D>&, std::size_t strip, const DetectionRule<D>&, StripContacts<D>&,
-               DetectionSums&);
-  void (*keep)(const StripContacts<D>&, Pairs<D>&, ImpulseSums<D>&);
-};
+using Find = void (*)(const Pairs<D>&, std::size_t strip, const DetectionRule<D>&,
+                      StripContacts<D>&, DetectionSums&);
 }  // namespace
 }  // namespace grseg
 #endif
@@ -180,10 +177,10 @@ struct Geometries {
 
 /// Geometries of as many pairs as a vector has lanes, from entry `at` of `near` on.
 template <bool periodic, int D>
-HWY_INLINE Geometries<D> geometry_of(const Pairs<D>& pairs, const PairClass& c,
-                                     const NearPairs& near, std::size_t at,
-                                     const DetectionRule<D>& rule, hn::Mask<Doubles> used,
-                                     LaneSums& sums)
+HWY_INLINE Geometries<D> contact_geometry(const Pairs<D>& pairs, const PairClass& c,
+                                          const NearPairs& near, std::size_t at,
+                                          const DetectionRule<D>& rule, hn::Mask<Doubles> used,
+                                          LaneSums& sums)
 {
   const Doubles d;
   const auto one = hn::Set(d, 1.0);
@@ -223,40 +220,6 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Ma
   add(sums.approaches, fresh * fresh);
 }
 
-template <int D>
-struct Memories {
-  Vector n;
-  Turning<D, Vector> t;
-  Vector approach;
-};
-/// `at`: offsets in Pairs::memory, in doubles.
-template <int D>
-HWY_INLINE Memories<D> load_memories(const Pairs<D>& pairs, const std::uint32_t* at)
-{
-  const Doubles d;
-  const auto m = load_fours(d, &pairs.memory.data()->n, at);
-  if constexpr (D == 2) return {m[0], {m[1]}, m[2]};
-  alignas(64) Lanes approach;
-  for (std::size_t lane = 0; lane < hn::MaxLanes(d); ++lane)
-    approach[lane] = pairs.approach[at[lane] / memory_doubles];
-  if constexpr (D == 3) return {m[0], {m[1], m[2], m[3]}, load(approach, 0)};
-}
-template <int D>
-HWY_INLINE void store_memories(const Memories<D>& m, Pairs<D>& pairs, const std::uint32_t* at)
-{
-  const Doubles d;
-  auto* memory = reinterpret_cast<double*>(pairs.memory.data());
-  if constexpr (D == 2) {
-    store_fours(d, Fours<Doubles>{m.n, m.t[0], m.approach, hn::Zero(d)}, memory, at);
-  } else {
-    store_fours(d, Fours<Doubles>{m.n, m.t[0], m.t[1], m.t[2]}, memory, at);
-    alignas(64) Lanes approach;
-    store(m.approach, approach, 0);
-    for (std::size_t lane = 0; lane < hn::MaxLanes(d); ++lane)
-      pairs.approach[at[lane] / memory_doubles] = approach[lane];
-  }
-}
-
 /// Writes a block with eight pairs of a class, from entry `first` of `near` on, including the first
 /// guesses of their impulses.
 template <Variant with, int D>
@@ -270,7 +233,8 @@ HWY_INLINE void set_block(const Pairs<D>& pairs, const PairClass& c, const NearP
   for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
     const auto v = load_relative<D>(d, motion, &block.i[lane], &block.j[lane]);
     const auto used = hn::Gt(v.inverse_mass, hn::Zero(d));
-    const auto g = geometry_of<with.periodic, D>(pairs, c, near, first + lane, rule, used, sums);
+    const auto g =
+        contact_geometry<with.periodic, D>(pairs, c, near, first + lane, rule, used, sums);
     const auto mass = normal_mass(v.inverse_mass, used);
     store(g.n, block.n, lane);
     store(g.kappa, block.kappa, lane);
@@ -350,57 +314,24 @@ void find(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& rule
   leave_vectors();
 }
 
-/// Calls find() with the effects of the scene as template arguments.
+/// Chooses find() for the effects of the scene, its template arguments.
 template <int D>
-void find_for(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& rule,
-              StripContacts<D>& contacts, DetectionSums& total)
+Find<D> find_for(const DetectionRule<D>& rule)
 {
-  const auto find_it = with_flags(
-      []<bool periodic, bool rotation, bool restitution, bool horizon>() {
-        return &find<Variant{periodic, rotation, restitution, horizon}, D>;
+  return with_flags(
+      []<bool periodic, bool rotation, bool restitution, bool horizon>() -> Find<D> {
+        return &find<Variant{periodic || D == 3, rotation, restitution, horizon}, D>;
       },
       rule.periodic, rule.effects.rotation, rule.effects.restitution, rule.horizon > 0);
-  find_it(pairs, strip, rule, contacts, total);
 }
-
-template <int D>
-void keep(const StripContacts<D>& contacts, Pairs<D>& pairs, ImpulseSums<D>& total)
-{
-  const Doubles d;
-  alignas(64) Lanes gaps{};
-  alignas(64) Along<D, Lanes> on_base{};
-  for (std::size_t b = 0; b < contacts.size; ++b) {
-    const auto& block = contacts.blocks[b];
-    const auto& origin = contacts.origins[b];
-    for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
-      const auto add = [&](Lanes& to, Vector what)
-                           HWY_ATTR { store(load(to, lane) + what, to, lane); };
-      const auto n = load(block.impulse_n, lane);
-      const auto t = load(block.impulse_t, lane);
-      const auto bearing = n > hn::Zero(d);
-      const auto approach = choose(bearing, load(origin.approach, lane));
-      store_memories<D>({n, t, approach}, pairs, &origin.pair[lane]);
-      add(gaps, choose(bearing, magnitude(load(origin.gap, lane))));
-      total.force_bearing += hn::CountTrue(d, bearing);
-      if (b < contacts.on_base) continue;
-      const auto impulse = in_space(load(block.n, lane), n, t);
-      for (std::size_t k = 0; k < D; ++k) add(on_base[k], impulse[k]);
-    }
-  }
-  total.gap_bearing = sum(gaps);
-  for (std::size_t k = 0; k < D; ++k)
-    total.on_base_side[static_cast<Eigen::Index>(k)] = sum(on_base[k]);
-  leave_vectors();
-}
-
 // Dispatch accepts no templates.
-DetectionLoops<2> loops_for_discs()
+Find<2> find_discs(const DetectionRule<2>& rule)
 {
-  return {find_for<2>, keep<2>};
+  return find_for(rule);
 }
-DetectionLoops<3> loops_for_spheres()
+Find<3> find_spheres(const DetectionRule<3>& rule)
 {
-  return {find_for<3>, keep<3>};
+  return find_for(rule);
 }
 
 }  // namespace
@@ -412,16 +343,16 @@ HWY_AFTER_NAMESPACE();
 namespace grseg {
 namespace {
 
-HWY_EXPORT(loops_for_discs);
-HWY_EXPORT(loops_for_spheres);
+HWY_EXPORT(find_discs);
+HWY_EXPORT(find_spheres);
 
 template <int D>
-DetectionLoops<D> loops()
+Find<D> choose_find(const DetectionRule<D>& rule)
 {
   if constexpr (D == 2)
-    return HWY_DYNAMIC_DISPATCH(loops_for_discs)();
+    return HWY_DYNAMIC_DISPATCH(find_discs)(rule);
   else
-    return HWY_DYNAMIC_DISPATCH(loops_for_spheres)();
+    return HWY_DYNAMIC_DISPATCH(find_spheres)(rule);
 }
 
 /// Resizes the arrays of a strip for the case that all its listed pairs act.
@@ -450,12 +381,13 @@ DetectionSums find_contacts(const Pairs<D>& pairs, const DetectionRule<D>& rule,
 {
   contacts.resize(pairs.strip_count());
   std::vector<DetectionSums> sums(contacts.size());
+  const auto find = choose_find(rule);
   for_each_part(threads, contacts.size(), [&](std::size_t s) {
     auto& strip = contacts[s];
     std::swap(strip.acting, strip.acted);
     strip.size = strip.count = 0;
     make_room(pairs.classes_of(s), strip);
-    loops<D>().find(pairs, s, rule, strip, sums[s]);
+    find(pairs, s, rule, strip, sums[s]);
   });
   DetectionSums total;
   for (const auto& s : sums) {
@@ -477,49 +409,12 @@ void forget_search(std::vector<StripContacts<D>>& contacts)
   for (auto& strip : contacts) std::swap(strip.acting, strip.acted);
 }
 
-template <int D>
-ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs,
-                             int threads)
-{
-  std::vector<ImpulseSums<D>> sums(contacts.size());
-  for_each_part(threads, contacts.size(),
-                [&](std::size_t s) { loops<D>().keep(contacts[s], pairs, sums[s]); });
-  ImpulseSums<D> total;
-  for (const auto& s : sums) {
-    total.force_bearing += s.force_bearing;
-    total.gap_bearing += s.gap_bearing;
-    total.on_base_side += s.on_base_side;
-  }
-  return total;
-}
-
-template <int D>
-void forget_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs, int threads)
-{
-  for_each_part(threads, contacts.size(), [&](std::size_t s) {
-    const auto& strip = contacts[s];
-    const std::size_t first = pairs.begin_of(s);
-    for (std::size_t eight = 0; eight < strip.acted.size(); ++eight) {
-      auto gone = static_cast<std::uint32_t>(strip.acted[eight] & ~strip.acting[eight]);
-      for (; gone != 0; gone &= gone - 1) {
-        const auto pair =
-            first + eight * block_lanes + static_cast<unsigned>(std::countr_zero(gone));
-        pairs.clear_memories(pair, pair + 1);
-      }
-    }
-  });
-}
-
 template DetectionSums find_contacts(const Pairs<2>&, const DetectionRule<2>&,
                                      std::vector<StripContacts<2>>&, int);
 template void forget_search(std::vector<StripContacts<2>>&);
-template ImpulseSums<2> keep_impulses(std::span<const StripContacts<2>>, Pairs<2>&, int);
-template void forget_impulses(std::span<const StripContacts<2>>, Pairs<2>&, int);
 template DetectionSums find_contacts(const Pairs<3>&, const DetectionRule<3>&,
                                      std::vector<StripContacts<3>>&, int);
 template void forget_search(std::vector<StripContacts<3>>&);
-template ImpulseSums<3> keep_impulses(std::span<const StripContacts<3>>, Pairs<3>&, int);
-template void forget_impulses(std::span<const StripContacts<3>>, Pairs<3>&, int);
 
 }  // namespace grseg
 #endif  // HWY_ONCE

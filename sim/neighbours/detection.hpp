@@ -48,8 +48,8 @@ struct StripContacts {
 template <int D>
 struct DetectionRule {
   std::span<const Position<D>> ahead;  // m, positions after the forecast (LawParameters)
-  std::span<const Position<D>>
-      middle;  // m, positions at mid-step, which set the geometry of contacts
+  /// m, positions at mid-step, which determine the geometry of contacts
+  std::span<const Position<D>> middle;
   std::span<const Motion<D>> motion;  // velocities at the beginning of the step
   std::span<const Wall<D>> walls;
   double margin = 0;  // m, LawParameters::margin
@@ -83,22 +83,5 @@ DetectionSums find_contacts(const Pairs<D>& pairs, const DetectionRule<D>& rule,
 /// Undoes the last find_contacts: the pairs of the previous step count as acting again.
 template <int D>
 void forget_search(std::vector<StripContacts<D>>& contacts);
-
-/// Sums over the contacts after the solve.
-template <int D>
-struct ImpulseSums {
-  std::size_t force_bearing = 0;               // number of contacts with an impulse
-  double gap_bearing = 0;                      // m, sum of |gap| over contacts with an impulse
-  Vector<D> on_base_side = Vector<D>::Zero();  // kg m/s, impulse of walls and base on mobile grains
-};
-
-/// Stores the impulses and approaches of the contacts in the memories of their pairs.
-template <int D>
-ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs,
-                             int threads = 1);
-/// Clears the memories of pairs that acted in the previous step and do not act now. The pair list
-/// must be the same in both steps.
-template <int D>
-void forget_impulses(std::span<const StripContacts<D>> contacts, Pairs<D>& pairs, int threads = 1);
 
 }  // namespace grseg

@@ -17,8 +17,8 @@ namespace grseg {
 /// Largest number of cell lengths that a grain may travel; files store the number in 32 bits.
 constexpr std::int32_t most_periods = 1'000'000'000;
 
-/// Coordinates of a sphere's centre, m, and its radius, m (0 for the immobile body), so that one load
-/// reads all that decides whether a pair touches. Eigen aligns four doubles as the compiler's default
+/// Centre of a sphere, m, and its radius, m (0 for the immobile body). One load reads all four,
+/// which decide whether a pair touches. Eigen aligns four doubles as the compiler's default
 /// instruction set needs it, and loads of wider sets need more.
 struct alignas(32) SpherePosition : Eigen::Vector4d {
   SpherePosition() = default;
@@ -60,7 +60,7 @@ Position<D> displacement(double duration, const Motion<D>& motion)
 
 /// Numbers of periods to add to the periodic coordinates: to x, and in three dimensions to z.
 template <int D>
-using Periods = std::array<std::int32_t, D - 1>;
+using Periods = Horizontal<D, std::int32_t>;
 
 /// Variables of the grains, sorted along the cells of the pair list, so that neighbours in space
 /// are near in memory. The entry after the last grain is the immobile body, which never moves: the

@@ -43,7 +43,7 @@ std::uint8_t class_for(std::uint32_t a, std::uint32_t b, const GrainState<D>& gr
 }
 
 template <int D>
-PairGeometry<D> geometry_of(const Along<D - 1, double>& shift, double reach)
+PairGeometry<D> pair_geometry(const Horizontal<D>& shift, double reach)
 {
   if constexpr (D == 2)
     return {shift[0], reach};
@@ -184,9 +184,9 @@ void PairList<D>::lay_out()
 }
 
 template <int D>
-Along<D - 1, double> PairList<D>::nearest_shift(const Position<D>& difference) const
+Horizontal<D> PairList<D>::nearest_shift(const Position<D>& difference) const
 {
-  Along<D - 1, double> shift{};
+  Horizontal<D> shift{};
   for (std::size_t k = 0; k < shift.size(); ++k) {
     const double apart = difference[static_cast<Eigen::Index>(2 * k)], length = length_[k];
     if (length > 0 && std::abs(apart) > length / 2)
@@ -225,7 +225,7 @@ void PairList<D>::fill_in(std::size_t strip, const GrainState<D>& grains)
       const auto shift = nearest_shift(first ? made_at[a] - made_at[b] : made_at[b] - made_at[a]);
       const std::size_t k = number_[f] = s.next[c]++;
       write(k, offset(first ? a : b), offset(first ? b : a),
-            geometry_of<D>(shift, grains.radius[a] + grains.radius[b]));
+            pair_geometry<D>(shift, grains.radius[a] + grains.radius[b]));
     }
   };
   for (auto a = bodies.begin; a < bodies.end; ++a) write_pairs(a, found.begin[a], found.far[a]);
@@ -234,11 +234,11 @@ void PairList<D>::fill_in(std::size_t strip, const GrainState<D>& grains)
     if (c.wall < 0) continue;
     auto k = c.begin;
     for (const auto b : search_.strips[strip].at_wall[static_cast<std::size_t>(c.wall)])
-      write(k++, offset(b), nobody, geometry_of<D>({}, grains.radius[b]));
+      write(k++, offset(b), nobody, pair_geometry<D>({}, grains.radius[b]));
   }
   const bool last = strip + 1 == strips_.size();
   pairs_.clear_memories(s.begin, last ? s.end + 1 : s.end);
-  if (last) write(s.end, nobody, nobody, geometry_of<D>({}, 1));
+  if (last) write(s.end, nobody, nobody, pair_geometry<D>({}, 1));
 }
 
 template <int D>

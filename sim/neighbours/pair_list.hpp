@@ -100,11 +100,11 @@ class PairList {
   void fill_in(std::size_t strip, const GrainState<D>& grains);
   void carry_memories();
   void carry_wall_memory(std::uint32_t body, std::int32_t wall, std::uint32_t from);
-  Along<D - 1, double> nearest_shift(const Position<D>& difference) const;
+  Horizontal<D> nearest_shift(const Position<D>& difference) const;
 
-  std::size_t walls_;              // number of walls
-  double skin_;                    // m, see PairList()
-  Along<D - 1, double> length_{};  // m, periods of x and z; 0 without periodicity
+  std::size_t walls_;       // number of walls
+  double skin_;             // m, see PairList()
+  Horizontal<D> length_{};  // m, periods of x and z; 0 without periodicity
   int threads_;
   PairSearch<D> search_;
   Completeness<D> completeness_;

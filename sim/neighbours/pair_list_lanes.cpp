@@ -104,21 +104,21 @@ struct Partners {
   }
 };
 
-/// Finds the partners of body `a` in a range of bodies, to whose x and z `part.shift` is added.
+/// Finds the partners of body `a` in a range of bodies, to whose x and z `shift` is added.
 /// Appends them to `near` or, if their gap is above near_part of the skin, to `far`.
 template <bool periodic, int D>
-HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
-                          const typename Search<D>::Part& part, double skin,
-                          const Along<D - 1, double>& period, Partners& near, Partners& far)
+HWY_INLINE void find_with(const Members<D>& members, std::size_t a, Range bodies,
+                          const Horizontal<D>& shift, double skin, const Horizontal<D>& period,
+                          Partners& near, Partners& far)
 {
   const Doubles d;
   constexpr auto periodic_axis = [](std::size_t axis) { return axis / 2; };  // x or z
   const auto own = components<D>([&](std::size_t k) HWY_ATTR {
-    return hn::Set(d, k == 1 ? members.x[k][a] : members.x[k][a] - part.shift[periodic_axis(k)]);
+    return hn::Set(d, k == 1 ? members.x[k][a] : members.x[k][a] - shift[periodic_axis(k)]);
   });
   const auto reach = hn::Set(d, members.radius[a] + skin);
   const auto beyond = hn::Set(d, (1 - near_part<D>)*skin);
-  for (std::size_t b = part.bodies.begin; b < part.bodies.end; b += block_lanes) {
+  for (std::size_t b = bodies.begin; b < bodies.end; b += block_lanes) {
     std::uint32_t bits = 0, near_bits = 0;
     for (std::size_t lane = 0; lane < block_lanes; lane += hn::MaxLanes(d)) {
       const std::size_t at = b + lane;
@@ -138,7 +138,7 @@ HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
       bits |= within(farthest);
       if constexpr (near_part<D> < 1) near_bits |= within(farthest - beyond);
     }
-    const std::size_t left = part.bodies.end - b;
+    const std::size_t left = bodies.end - b;
     if (left < block_lanes) bits &= (1U << left) - 1;
     if constexpr (near_part<D> < 1) {
       far.add(bits & ~near_bits, b);
@@ -148,6 +148,23 @@ HWY_INLINE void find_with(const Members<D>& members, std::size_t a,
   }
 }
 
+/// The partners of body `a` in a part, without the partners that borders of cells keep out of reach.
+template <int D>
+HWY_INLINE Range within_reach(const Members<D>& members, std::size_t a, const Search<D>& search,
+                              const typename Search<D>::Part& part, double skin)
+{
+  // A little more, because borders are rounded.
+  const double reach = (1 + 1e-6) * (members.radius[a] + members.largest_radius + skin);
+  double left = reach * reach;  // m^2, square of the reach along x
+  const auto square = [](double away) { return away > 0 ? away * away : 0; };
+  for (std::size_t k = 0; k + 1 < D; ++k)
+    left -= square(part.signs[k] * (part.border[k] - members.x[k + 1][a]));
+  if (left < 0) return {0, 0};
+  const double x = members.x[0][a];
+  return {square(x - search.left) > left ? part.column.begin : part.bodies.begin,
+          square(search.right - x) > left ? part.column.end : part.bodies.end};
+}
+
 template <bool periodic, int D>
 HWY_INLINE void find_near_of(const Members<D>& members, const Search<D>& s, double skin,
                              FoundPairs& found)
@@ -155,9 +172,12 @@ HWY_INLINE void find_near_of(const Members<D>& members, const Search<D>& s, doub
   Partners near{found.b.data(), found.begin.back()};
   for (auto a = s.cell.begin; a < s.cell.end; ++a) {
     Partners far{found.scratch.data(), 0};
-    find_with<periodic, D>(members, a, {{a + 1, s.end}, {}}, skin, s.period, near, far);
+    auto own = within_reach(members, a, s,
+                            {.bodies = {a + 1, s.end}, .column = {a + 1, s.cell.end}}, skin);
+    find_with<periodic, D>(members, a, own, {}, skin, s.period, near, far);
     for (std::size_t p = 0; p < s.count; ++p)
-      find_with<periodic, D>(members, a, s.parts[p], skin, s.period, near, far);
+      find_with<periodic, D>(members, a, within_reach(members, a, s, s.parts[p], skin),
+                             s.parts[p].shift, skin, s.period, near, far);
     found.far.push_back(static_cast<std::uint32_t>(near.count));
     std::copy_n(far.body, far.count, near.body + near.count);
     near.count += far.count;
@@ -223,8 +243,14 @@ void carry_all(const CarryOver<D>& task, std::uint32_t first, std::uint32_t last
       auto f = find_pair(found, std::min(i, j), std::max(i, j));
       if (f == found.size()) f = find_pair(found, std::max(i, j), std::min(i, j));
       if (f == found.size()) continue;
-      pairs.memory[number[f]] = old.memory[k];
-      if constexpr (D == 3) pairs.approach[number[f]] = old.approach[k];
+      const auto n = number[f];
+      pairs.memory[n] = old.memory[k];
+      if constexpr (D == 3) {
+        pairs.approach[n] = old.approach[k];
+        // The friction of spheres is a vector on i, which may have been j. (t turns with n.)
+        if (pairs.i[n] != position_doubles<D> * i)
+          for (auto& t : pairs.memory[n].t) t = -t;
+      }
     }
   }
   leave_vectors();

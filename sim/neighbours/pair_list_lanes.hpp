@@ -28,24 +28,30 @@ template <int D>
 struct Members {
   std::array<std::vector<double>, D> x;  // m
   std::vector<double> radius;            // m
+  double largest_radius = 0;             // m
 };
 
 /// Bodies of a cell, and ranges of bodies among which the partners of their pairs are searched.
 template <int D>
 struct Search {
-  /// `shift`, m, is added to x and z of these partners.
+  /// Partners in a row of cells along x. Partners before `column` are on the left of the cell's
+  /// column, partners after it on the right. `shift`, m, is added to x and z of the partners.
+  /// `border`, m: border of the cell across y and, of spheres, z, towards the row; `signs`: 1 if the
+  /// partners are above it, -1 if below it, 0 if the row is in the same band or slice.
   struct Part {
-    Range bodies{};
-    Along<D - 1, double> shift{};
+    Range bodies{}, column{};
+    Horizontal<D> shift{};
+    Across<D> border{}, signs{};
   };
-  Range cell{};           // bodies of the cell
-  std::uint32_t end = 0;  // end of the partners (after the body) in the row of the cell
+  Range cell{};                // bodies of the cell
+  double left = 0, right = 0;  // m, borders of the cell across x
+  std::uint32_t end = 0;       // end of the partners (after the body) in the row of the cell
   /// Partners in other rows, and beyond the border of the strip; the first `count` are in use.
-  std::array<Part, D == 2 ? 3 : 13> parts{};
+  std::array<Part, D == 2 ? 3 : 9> parts{};
   std::size_t count = 0;
-  Along<D - 1, double> period{};  // m, of x and z if both images must be tried, else 0
+  Horizontal<D> period{};  // m, of x and z if both images must be tried, else 0
 
-  void add(Range bodies, const Along<D - 1, double>& shift) { parts[count++] = {bodies, shift}; }
+  void add(const Part& part) { parts[count++] = part; }
 };
 
 /// Pairs in the order of their first body a: pairs begin[a] .. begin[a+1]-1, with second bodies b.
@@ -58,8 +64,9 @@ struct FoundPairs {
   std::size_t size() const { return begin.empty() ? 0 : begin.back(); }
 };
 
-/// The part of the skin up to which pairs are near. Until grains have moved so far, the others cannot
-/// touch, and are not tested. From 0.35 to 0.65 the time of a step is the same within 3 %.
+/// A pair of spheres is near if its gap was at most this part of the skin when the list was made.
+/// Other pairs cannot touch before neighbouring groups have moved that far relative to each other;
+/// until then they are not tested. From 0.35 to 0.65 the time of a step is the same within 3 %.
 template <int D>
 constexpr double near_part = D == 2 ? 1 : 0.5;
 

@@ -153,7 +153,15 @@ auto CellGrid<D>::rows_after(std::int32_t band, std::int32_t slice) const -> Row
       shift = other < 0 ? -length_[D - 2] : length_[D - 2];
       other += other < 0 ? slices_ : -slices_;
     }
-    if (band + up < bands_) rows.push_back({band + up, other, shift});
+    if (band + up >= bands_) return;
+    Row row{band + up, other, shift};
+    row.border[0] = bottom_ + cell_ * (band + 1);
+    row.signs[0] = up;
+    if constexpr (D == 3) {
+      row.border[1] = front_ + (on > 0 ? slice + 1 : slice) / slices_per_metre_;
+      row.signs[1] = on;
+    }
+    rows.push_back(row);
   };
   add(1, 0);
   if constexpr (D == 3) add(0, 1), add(1, -1), add(1, 1);
@@ -166,7 +174,7 @@ Search<D> CellGrid<D>::search(std::size_t strip, std::int32_t column, std::int32
 {
   const auto first = first_column_[strip], last = first_column_[strip + 1] - 1;
   const auto left = std::max(column - 1, first), right = std::min(column + 1, last);
-  const auto shift = [](double x, [[maybe_unused]] double z) -> Along<D - 1, double> {
+  const auto shift = [](double x, [[maybe_unused]] double z) -> Horizontal<D> {
     if constexpr (D == 2)
       return {x};
     else
@@ -175,9 +183,15 @@ Search<D> CellGrid<D>::search(std::size_t strip, std::int32_t column, std::int32
   Search<D> search;
   search.cell = bodies(column, column, band, slice);
   search.end = bodies(column, right, band, slice).end;
+  search.left = left_ + column_width_ * column;
+  search.right = left_ + column_width_ * (column + 1);
+  const auto add = [&](Range all, Range own, const Row& row, double shift_x) {
+    search.add({all, own, shift(shift_x, row.shift_z), row.border, row.signs});
+  };
   const auto rows = rows_after(band, slice);
   for (const auto& row : rows)
-    search.add(bodies(left, right, row.band, row.slice), shift(0, row.shift_z));
+    add(bodies(left, right, row.band, row.slice), bodies(column, column, row.band, row.slice), row,
+        0);
   // The nearest image may be on either side.
   search.period = shift(columns_ == 1 ? length_[0] : 0, slices_ == 1 ? length_[D - 2] : 0);
   if (columns_ == 1) return search;
@@ -186,10 +200,11 @@ Search<D> CellGrid<D>::search(std::size_t strip, std::int32_t column, std::int32
     const bool wraps = column + step < 0 || column + step >= columns_;
     if (wraps && length_[0] == 0) return;
     const auto other = wraps ? column + step - step * columns_ : column + step;
-    search.add(bodies(other, other, row.band, row.slice),
-               shift(wraps ? step * length_[0] : 0, row.shift_z));
+    const auto all = bodies(other, other, row.band, row.slice);
+    const auto near_end = step < 0 ? all.end : all.begin;
+    add(all, {near_end, near_end}, row, wraps ? step * length_[0] : 0);
   };
-  if (column == last) add_beyond({band, slice, 0}, 1);
+  if (column == last) add_beyond({band, slice}, 1);
   for (const auto& row : rows) {
     if (column == first) add_beyond(row, -1);
     if (column == last) add_beyond(row, 1);
@@ -202,6 +217,7 @@ PairSearch<D>::PairSearch(const std::vector<Wall<D>>& walls, const Box& box, dou
                           double skin, int threads)
     : grid(box, cell, threads), walls_(walls), skin_(skin), threads_(threads)
 {
+  members_.largest_radius = (cell - skin) / 2;
 }
 
 template <int D>

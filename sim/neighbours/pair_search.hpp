@@ -60,7 +60,8 @@ class CellGrid {
   void cut_into_strips(std::size_t grains);
   struct Row {
     std::int32_t band, slice;
-    double shift_z;  // m
+    double shift_z = 0;           // m
+    Across<D> border{}, signs{};  // Search::Part
   };
   using Rows = boost::container::static_vector<Row, 4>;
   Rows rows_after(std::int32_t band, std::int32_t slice) const;
@@ -71,8 +72,8 @@ class CellGrid {
     return base_[c] + static_cast<std::size_t>(band * slices_ + slice) * width_[c];
   }
 
-  Along<D - 1, double> length_;  // m, periods of x and z; 0 without periodicity
-  double cell_;                  // m, least size of a cell
+  Horizontal<D> length_;  // m, periods of x and z; 0 without periodicity
+  double cell_;           // m, least size of a cell
   int threads_;
   std::int32_t columns_ = 1, bands_ = 1, slices_ = 1;
   double left_ = 0, bottom_ = 0, front_ = 0, column_width_ = 1, columns_per_metre_ = 1;

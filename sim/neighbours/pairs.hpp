@@ -13,8 +13,8 @@
 
 namespace grseg {
 
-/// A straight wall: the half-plane behind `point`, of infinite mass. `normal` (unit length) points
-/// into the space that is free to grains.
+/// A flat wall: the half-plane (spheres: half-space) behind `point`, of infinite mass. `normal`
+/// (unit length) points into the space that is free to grains.
 template <int D>
 struct Wall {
   Vector<D> point;  // m, a point on the surface of the wall

@@ -180,7 +180,10 @@ AnyCheckpoint read_parts(const std::string& path)
   int dimension = 0;
   read("/box/dimension", dimension);
   if (dimension != 2 && dimension != 3)
-    fail(fmt::format("/box/dimension is {}, not 2 or 3; use an older checkpoint", dimension));
+    fail(
+        fmt::format("/box/dimension is {}, and must be 2 or 3: the file is damaged; use an older "
+                    "checkpoint",
+                    dimension));
   return with_dimension(dimension, [&](auto d) -> AnyCheckpoint {
     Checkpoint<d> checkpoint;
     visit_all(read, checkpoint);

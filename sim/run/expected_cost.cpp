@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/run/expected_cost.hpp"
 
+#include "formats/cli/interruption.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "sim/scene/deposition.hpp"
@@ -33,6 +34,8 @@ double bytes_of_frame(const Scene& scene, double grains)
   return grains * (7 * number + 2 * whole) + contacts_per_grain * grains * (5 * number + 2 * whole);
 }
 
+constexpr double most_measured = 4000;  // grains of the small bed, unless it would be too low
+
 /// Scene of a small bed of the same grains. If `scene` is a chute, the bed flows alike.
 Scene small_bed(const Scene& scene)
 {
@@ -41,10 +44,14 @@ Scene small_bed(const Scene& scene)
   small.lateral = Scene::Lateral::periodic;
   small.base = Scene::Base::wall;
   small.large_grains = std::nullopt;
-  small.length = (scene.dimension == 3 ? 8 : 20) * scene.large_diameter;
-  small.width = std::min(scene.width, 6 * scene.large_diameter);
+  const double large = scene.large_diameter;
+  small.length = scene.dimension == 3 ? std::min(scene.length, 8 * large) : 20 * large;
+  small.width = std::min(scene.width, 6 * large);
   small.sides = Scene::Lateral::periodic;
-  small.depth = std::min(scene.depth, 15 * scene.large_diameter);
+  small.depth = std::min(scene.depth, 15 * large);
+  const double too_many = expected_grains(small) / most_measured;
+  if (too_many > 1)
+    small.depth = std::max(small.depth / too_many, std::min(small.depth, 3 * large));
   return small;
 }
 
@@ -54,7 +61,9 @@ std::optional<double> measured_grain_step(const Scene& scene)
 try {
   using clock = std::chrono::steady_clock;
   const auto small = small_bed(scene);
-  auto simulation = release(deposit<D>(small), small);
+  const auto each_step = [](double) { stop_if_interrupted(); };
+  auto simulation =
+      release(deposit<D>(small, {.each_step = each_step, .slowed = {}, .record = {}}), small);
   const auto begin = clock::now();
   std::chrono::duration<double> passed{};
   double steps = 0;
@@ -64,6 +73,8 @@ try {
     passed = clock::now() - begin;
   }
   return passed.count() / steps / static_cast<double>(simulation.world().grains.size());
+} catch (const Interruption&) {
+  throw;
 } catch (const ToolError&) {
   return std::nullopt;
 }

@@ -63,8 +63,8 @@ class Recorder {
   /// - a number is not finite;
   /// - grains are so fast that the shortest part of a step lets them approach by more than half the
   ///   smallest diameter;
-  /// - the mean overlap since the last frame exceeds both 1 % of d_S and the fastest approach in one
-  ///   step.
+  /// - the mean overlap since the last frame exceeds both 1 % of d_S and the fastest approach in
+  ///   one step.
   template <int D>
   void write(const Frame<D>& frame, const Simulation<D>& simulation);
 

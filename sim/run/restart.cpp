@@ -76,6 +76,10 @@ Scene scene_of(const std::string& text, const std::string& name, const po::varia
   std::vector<std::string> set_again;
   if (!given["accuracy"].defaulted())
     set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
+  if (!given["restitution"].defaulted()) {
+    const auto before = scene_of(text, name);
+    if (before.law == usual_law(before.restitution)) set_again.emplace_back("contact-law");
+  }
   auto values = given;
   read_scene_text(text, name, set_again, values);
   return resolve_scene(values);

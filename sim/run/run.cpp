@@ -244,7 +244,7 @@ void simulate_in(const Scene& scene, const RunOptions& options)
   Run<D> run{simulation,
              new_trajectory(scene, simulation, provenance(scene, options), part),
              {},
-             bed_height(deposited),
+             bed_height(deposited, scene.geometry->boundaries(scene).top),
              options.command_line};
   if (scene.keep_deposition) record_deposition<D>(scene, run.writer);
   finish(scene, options, run);

@@ -19,8 +19,8 @@
 namespace grseg {
 namespace {
 
-// Limits for discs that count as rigid: least k/P (NumericalStiffness), largest mean overlap in d_S
-// (docs/studies/first-flow.md).
+// Limits for grains that count as rigid: least k/P (NumericalStiffness), largest mean overlap in
+// d_S (docs/studies/first-flow.md).
 constexpr double rigid = 1e4;
 constexpr double small_overlap = 1e-3;
 
@@ -30,9 +30,10 @@ std::string grains_in_words(const Scene& scene, const Grains& grains)
     return std::count(grains.species.begin(), grains.species.end(), species);
   };
   return fmt::format(
-      "{} small grains (d_S = {:g} mm) and {} large ones (d_L = {:g} mm), {} in the boundary",
-      count(Species::small), 1e3 * scene.small_diameter, count(Species::large),
-      1e3 * scene.large_diameter, count(Species::boundary));
+      "{} small {} (d_S = {:g} mm) and {} large ones (d_L = {:g} mm), {} in the boundary",
+      count(Species::small), scene.dimension == 3 ? "spheres" : "grains",
+      1e3 * scene.small_diameter, count(Species::large), 1e3 * scene.large_diameter,
+      count(Species::boundary));
 }
 
 std::string flow_in_words(const RunSummary& s, const Scene& scene)
@@ -42,9 +43,12 @@ std::string flow_in_words(const RunSummary& s, const Scene& scene)
   if (scene.slope_rate != 0)
     slope += fmt::format(" at t = 0, {:g} per second steeper, {:.4g} at t = {:g} s",
                          scene.slope_rate, scene.slope + scene.slope_rate * s.end, s.end);
-  return fmt::format("{}: deposited {:.1f} d_S high; {}, friction {:g}, restitution {:g}{}",
-                     scene.geometry->name, s.deposited_height / scene.small_diameter, slope,
-                     scene.friction, scene.restitution,
+  const auto bed =
+      scene.geometry->checks_height
+          ? fmt::format("deposited {:.1f} d_S high", s.deposited_height / scene.small_diameter)
+          : fmt::format("filled to {:g}", scene.fill);
+  return fmt::format("{}: {}; {}, friction {:g}, restitution {:g}{}", scene.geometry->name, bed,
+                     slope, scene.friction, scene.restitution,
                      scene.law == ContactLaw::centred ? " (contact law centred)" : "");
 }
 
@@ -63,11 +67,11 @@ std::string solver_in_words(const StepTotals& t, const Scene& scene)
 std::string stiffness_in_words(const NumericalStiffness& s)
 {
   const auto remedy = fmt::format(
-      "; discs count as rigid above {:.0e}: choose --step {:.2g} or "
+      "; grains count as rigid above {:.0e}: choose --step {:.2g} or "
       "--min-sweeps {:.0f}",
       rigid, s.advised_step, std::ceil(s.advised_sweeps));
   return fmt::format(
-      "k/P = {:.1e}, k the stiffness of elastic discs that yield as much, P the base pressure{}",
+      "k/P = {:.1e}, k the stiffness of elastic grains that yield as much, P the base pressure{}",
       s.rigidity, s.rigidity < rigid ? remedy : "");
 }
 
@@ -122,10 +126,9 @@ std::string effects_left_out(const Scene& scene)
   add(scene.restitution == 0 && !remembers, "restitution (its coefficient is 0)");
   add(!remembers, "memory of approaches (contacts act at once)");
   add(gravity_of<2>(scene).norm() == 0, "gravity (none)");
-  const bool along_z = scene.dimension == 3 && scene.sides == Scene::Lateral::periodic;
-  add(scene.lateral == Scene::Lateral::walls && !along_z, "periodicity (the cell has ends)");
+  add(scene.dimension == 2 && scene.lateral == Scene::Lateral::walls,
+      "periodicity (the cell has ends)");
   add(!moves_boundaries(scene), "moving boundaries (all stand still)");
-  add(scene.dimension == 3, "resistance to spinning about a contact's normal (none)");
   return fmt::format("{}", fmt::join(all, ", "));
 }
 

@@ -33,18 +33,18 @@ struct StiffnessInput {
   double step = 0;           // h, duration of a step, s
   double mass = 0;           // kg, mass of a small grain
   double diameter = 0;       // m, diameter of a small grain
-  double base_pressure = 0;  // P, N/m, weight of the bed per length of base
+  double base_pressure = 0;  // P, N/m: pressure on the base (spheres: times their diameter)
   double layers = 0;         // n, height of the bed in diameters
   double gravity = 0;        // m/s^2, component normal to the base
 };
 
-/// Effective stiffness of a bed of rigid discs. If contact impulses are corrected N times in a
-/// step, information spreads by N grains per step, and the discs behave as if they were elastic
+/// Effective stiffness of a bed of rigid grains. If contact impulses are corrected N times in a
+/// step, information spreads by N grains per step, and the grains behave as if they were elastic
 /// (Unger, Brendel, Wolf & Kertesz, Phys. Rev. E 65, 061305, 2002; ordered Gauss-Seidel sweeps,
 /// with their factor q = 1).
 struct NumericalStiffness {
   double stiffness = 0;    // k_eff = N m/h^2, N/m
-  double rigidity = 0;     // kappa = k_eff/P: discs count as rigid from 1e4 on
+  double rigidity = 0;     // kappa = k_eff/P: grains count as rigid from 1e4 on
   double sound_speed = 0;  // d sqrt(N)/h, m/s, speed of sound in the bed
   /// Longest step at this number of sweeps, s, and least number of sweeps at this step, so that
   /// kappa >= 1e4 and the bed sinks by n^2 g h^2/(2N) <= 1e-3 d while a wave passes through it.

@@ -23,6 +23,10 @@ namespace grseg {
 /// the cell, or if the smallest grain would fall through.
 void resolve_base_row(Scene& scene, const KeyGiven& given);
 
+/// Spheres have a base of interlocked lines of touching large grains, or a wall. Throws SceneError
+/// if the smallest grain would fall through the lines.
+void check_base_of_spheres(const Scene& scene);
+
 /// Largest number of beads that fill the cell with a mean spacing of at least `spacing`, m.
 long beads_at_spacing(const Scene& scene, double spacing);
 

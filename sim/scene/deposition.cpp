@@ -20,7 +20,9 @@ constexpr double depth_tolerance = 0.02;
 // Solid fraction of a deposit of discs, and of spheres, for the first attempt.
 constexpr double usual_solid_fraction = 0.81, usual_of_spheres = 0.61;
 constexpr int most_attempts = 20;
-constexpr double loose = 1.12;  // lattice spacing of the falling grains, in largest diameters
+constexpr double most_growth = 2;  // of the volume, from one attempt to the next
+// Lattice spacing of the falling grains, in largest diameters; and where they do not fit otherwise.
+constexpr double loose = 1.12, touching = 1 + 1e-9;
 
 /// Grain at its place above the base, before it falls.
 struct Falling {
@@ -29,10 +31,11 @@ struct Falling {
   Vec3 at;        // m, position of its centre
 };
 
-/// All grains before they fall, and the height above which there are none, m.
+/// All grains before they fall, on a lattice.
 struct Shower {
   std::vector<Falling> grains;
-  double top;
+  double top;      // m, height above which there are none
+  double spacing;  // of the lattice, in largest diameters
 };
 
 /// Square or cube of the lattice on which grains are placed before they fall. It contains one grain
@@ -47,10 +50,10 @@ double nominal_diameter(const Scene& scene, Species species)
   return species == Species::large ? scene.large_diameter : scene.small_diameter;
 }
 
-/// Layer of cells of the lattice: left edge, bottom, width of a cell along x and z, and height, m;
-/// number of cells along x.
+/// Layer of cells: left edge and bottom, m; size of a cell along x, z and y, m; number of cells
+/// along x.
 struct Layer {
-  double left, bottom, spacing, depth, height;
+  double left, bottom, along_x, along_z, height;
   long per_row;
 };
 
@@ -72,14 +75,14 @@ void fill_cell(Shower& shower, const Scene& scene, const Layer& layer, long plac
     const double diameter = nominal * (1 + scene.spread * (random.uniform() - 0.5));
     const double x =
         layer.left +
-        (static_cast<double>(place % layer.per_row) + within(k % cell.per_side)) * layer.spacing +
-        jitter(layer.spacing);
+        (static_cast<double>(place % layer.per_row) + within(k % cell.per_side)) * layer.along_x +
+        jitter(layer.along_x);
     const double y = layer.bottom + within(above) * layer.height + jitter(layer.height);
     const long row = place / layer.per_row;
     double z = 0;
     if (cube)
-      z = (static_cast<double>(row) + within(k % squared / cell.per_side)) * layer.depth +
-          jitter(layer.depth);
+      z = (static_cast<double>(row) + within(k % squared / cell.per_side)) * layer.along_z +
+          jitter(layer.along_z);
     shower.grains.push_back({cell.species, diameter / 2, {x, y, z}});
   }
 }
@@ -88,27 +91,26 @@ void fill_cell(Shower& shower, const Scene& scene, const Layer& layer, long plac
 void add_layers(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, Species lattice,
                 RandomNumbers& random)
 {
-  const double side = loose * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
-  const long along_z = scene.dimension == 3 ? static_cast<long>(scene.width / side) : 1;
+  const double side = shower.spacing * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
+  const long rows = scene.dimension == 3 ? static_cast<long>(scene.width / side) : 1;
+  const double along_z = scene.width / static_cast<double>(rows);
   auto& y = shower.top;
   for (auto cell = cells.begin(); cell != cells.end(); y += side) {
     const auto below = room_at(scene, y), above = room_at(scene, y + side);
     const double left = std::max(below.left, above.left);
     const double width = std::min(below.right, above.right) - left;
     const long per_row = static_cast<long>(width / side);
-    if (along_z < 1 || (per_row < 1 && above.right - above.left <= below.right - below.left))
+    if (per_row < 1 && above.right - above.left <= below.right - below.left)
       throw UsageError(
-          fmt::format("the falling grains do not fit: the {} is too narrow for a grain at "
-                      "a height of {:.4g} m; choose a wider one or fewer grains",
-                      scene.geometry->name, y));
+          fmt::format("the grains do not fit before they fall: the {} is too narrow for another "
+                      "one at a height of {:.4g} m; choose a smaller {}{}, or a wider {}",
+                      scene.geometry->name, y, scene.geometry->checks_height ? "depth" : "fill",
+                      scene.initial == Scene::Initial::mixed ? ", or initial = large-below" : "",
+                      scene.geometry->name));
     if (per_row < 1) continue;
-    const Layer layer{left,
-                      y,
-                      width / static_cast<double>(per_row),
-                      scene.width / static_cast<double>(along_z),
-                      side,
-                      per_row};
-    for (long place = 0; place < per_row * along_z && cell != cells.end(); ++place, ++cell)
+    const double along_x = width / static_cast<double>(per_row);
+    const Layer layer{left, y, along_x, along_z, side, per_row};
+    for (long place = 0; place < per_row * rows && cell != cells.end(); ++place, ++cell)
       fill_cell(shower, scene, layer, place, *cell, random);
   }
 }
@@ -132,10 +134,17 @@ std::vector<Cell> mixed_cells(const Scene& scene, long large, long small, Random
   return cells;
 }
 
+/// Numbers of mobile grains.
+struct Numbers {
+  long large, small;
+};
+
 /// Grains above `bottom`, m, in the arrangement Scene::initial; large grains first in the list.
-Shower shower_of(const Scene& scene, long large, long small, double bottom, RandomNumbers& random)
+Shower shower_of(const Scene& scene, Numbers count, double bottom, double spacing,
+                 RandomNumbers& random)
 {
-  Shower shower{{}, bottom};
+  const auto [large, small] = count;
+  Shower shower{{}, bottom, spacing};
   const auto add = [&](Species lattice, const std::vector<Cell>& cells) {
     add_layers(shower, scene, cells, lattice, random);
   };
@@ -156,11 +165,6 @@ Shower shower_of(const Scene& scene, long large, long small, double bottom, Rand
                         [](const Falling& grain) { return grain.species == Species::large; });
   return shower;
 }
-
-/// Numbers of mobile grains.
-struct Numbers {
-  long large, small;
-};
 
 /// Numbers of mobile grains that fill `volume`, m^2 or m^3.
 Numbers numbers_of(const Scene& scene, double volume)
@@ -183,11 +187,17 @@ double usual_volume(const Scene& scene)
 Packing loose_packing(const Scene& scene, double volume, RandomNumbers& random)
 {
   Packing packing;
-  const auto [large, small] = numbers_of(scene, volume);
-  if (large + small == 0)
+  const auto count = numbers_of(scene, volume);
+  if (count.large + count.small == 0)
     throw UsageError("the bed has no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
-  const auto shower = shower_of(scene, large, small, boundaries.top, random);
+  const auto shower = [&] {
+    try {
+      return shower_of(scene, count, boundaries.top, loose, random);
+    } catch (const UsageError&) {  // as in a well filled drum
+      return shower_of(scene, count, boundaries.top, touching, random);
+    }
+  }();
   packing.walls = boundaries.walls;
   packing.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
   if (scene.dimension == 3) {
@@ -316,7 +326,7 @@ void set_conditions(World<D>& world, const Scene& scene)
 }
 
 template <int D>
-double bed_height(const Simulation<D>& simulation)
+double bed_height(const Simulation<D>& simulation, double base_top)
 {
   const auto& grains = simulation.world().grains;
   double area = 0, moment = 0;
@@ -326,7 +336,7 @@ double bed_height(const Simulation<D>& simulation)
     area += own;
     moment += own * simulation.position(g).y();
   }
-  return area > 0 ? 2 * moment / area : 0;
+  return area > 0 ? 2 * moment / area - base_top : base_top;
 }
 
 double expected_grains(const Scene& scene)
@@ -355,7 +365,7 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
     auto simulation = simulation_of<D>(packing, scene);
     const auto start = simulation;
     const auto steps = settle(simulation, scene, hooks);
-    const double height = bed_height(simulation);
+    const double height = bed_height(simulation, scene.geometry->boundaries(scene).top);
     if (!scene.geometry->checks_height ||
         std::abs(height - scene.depth) <= depth_tolerance * scene.depth) {
       if (hooks.record) {
@@ -365,18 +375,19 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
       simulation.set_clock(0);
       return simulation;
     }
-    volume *= scene.depth / height;
+    volume *= height > 0 ? std::min(scene.depth / height, most_growth) : most_growth;
   }
   throw RunError(fmt::format(
-      "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep?",
+      "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep, or "
+      "do its large grains alone fill more?",
       scene.depth, most_attempts));
 }
 
 template void set_conditions(World<2>&, const Scene&);
-template double bed_height(const Simulation<2>&);
+template double bed_height(const Simulation<2>&, double);
 template Simulation<2> deposit(const Scene&, const DepositionHooks<2>&);
 template void set_conditions(World<3>&, const Scene&);
-template double bed_height(const Simulation<3>&);
+template double bed_height(const Simulation<3>&, double);
 template Simulation<3> deposit(const Scene&, const DepositionHooks<3>&);
 
 }  // namespace grseg

@@ -46,8 +46,9 @@ double expected_time_to_rest(const Scene& scene);
 template <int D>
 void set_conditions(World<D>& world, const Scene& scene);
 
-/// Twice the area- or volume-weighted mean height of the mobile grains above y = 0, m.
+/// Height of a flat bed above y = 0, m. The area- or volume-weighted mean height of the mobile grains
+/// is halfway between it and the top of the base at y = `base_top`, m.
 template <int D>
-double bed_height(const Simulation<D>& simulation);
+double bed_height(const Simulation<D>& simulation, double base_top = 0);
 
 }  // namespace grseg

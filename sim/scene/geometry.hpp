@@ -61,7 +61,8 @@ struct Geometry {
   std::vector<BoundaryBody> (*bodies)(const Scene& scene, const Grains& grains) = nullptr;
   /// True if gravity acts after t = 0.
   bool has_gravity = true;
-  /// Pressure of the flow on its base, N/m; null: measured from the contacts with the base.
+  /// Pressure of the flow on its base, N/m (spheres: Pa); null: measured from the contacts with the
+  /// base.
   double (*base_pressure)(const Scene& scene) = nullptr;
 
   /// Adds values to /parameters of the trajectory that are not keys.

@@ -94,15 +94,20 @@ double bead_spacing(const Scene& scene)
   return scene.dimension == 3 ? std::sqrt(0.75) * scene.large_diameter : scene.large_diameter;
 }
 
+long beads_in_line(const Scene& scene, long line)
+{
+  if (scene.dimension == 2) return 1;
+  const long beads = std::lround(std::ceil(scene.width / scene.large_diameter - 1e-9));
+  return scene.sides == Scene::Lateral::walls && line % 2 != 0 ? beads + 1 : beads;
+}
+
 void add_bead(Boundaries& to, const Scene& scene, const Vec2& at, long line)
 {
-  const long along_z =
-      scene.dimension == 3 ? std::lround(std::ceil(scene.width / scene.large_diameter - 1e-9)) : 1;
-  const double spacing = scene.width / static_cast<double>(along_z);
-  for (long k = 0; k < along_z; ++k) {
-    const double z = scene.dimension == 3
-                         ? (static_cast<double>(k) + (line % 2 == 0 ? 0.25 : 0.75)) * spacing
-                         : 0;
+  const double spacing = scene.width / static_cast<double>(beads_in_line(scene, 0));
+  const double quarter = scene.sides == Scene::Lateral::walls ? 0.25 : 0;
+  const double first = line % 2 == 0 ? 0.25 + quarter : 0.75 - 3 * quarter;
+  for (long k = 0; k < beads_in_line(scene, line); ++k) {
+    const double z = scene.dimension == 3 ? (static_cast<double>(k) + first) * spacing : 0;
     to.position.emplace_back(at.x(), at.y(), z);
     to.radius.push_back(bead_radius(scene));
   }
@@ -138,6 +143,11 @@ void add_side_walls(Boundaries& to, const Scene& scene)
     to.walls.push_back({Vec3::Zero(), Vec3::UnitX()});
     to.walls.push_back({{scene.length, 0, 0}, Vec3(-1, 0, 0)});
   }
+  add_walls_along_z(to, scene);
+}
+
+void add_walls_along_z(Boundaries& to, const Scene& scene)
+{
   if (scene.dimension == 2 || scene.sides != Scene::Lateral::walls) return;
   to.walls.push_back({Vec3::Zero(), Vec3::UnitZ()});
   to.walls.push_back({{0, 0, scene.width}, Vec3(0, 0, -1)});

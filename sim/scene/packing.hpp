@@ -36,11 +36,16 @@ void remove_last_grains(Packing& packing, std::size_t count);
 double bead_radius(const Scene& scene);  // m, half the large nominal diameter
 
 /// Adds a bead at (x, y), m; in three dimensions a line of touching or overlapping beads along z.
-/// Beads of odd lines are shifted by half a bead, so that neighbouring lines interlock.
+/// Beads of odd lines are shifted by half a bead, so that neighbouring lines interlock. At walls
+/// along z, even lines touch the walls and odd lines reach halfway into them: a gap would wedge
+/// small grains between a bead that moves and the wall.
 void add_bead(Boundaries& to, const Scene& scene, const Vec2& at, long line = 0);
 
 /// Distance of neighbouring beads or lines of beads that touch, m.
 double bead_spacing(const Scene& scene);
+
+/// Number of beads that add_bead() adds.
+long beads_in_line(const Scene& scene, long line);
 
 /// y of the centres of a regular row of beads in the base, m.
 double height_of_base_centres(const Scene& scene);
@@ -51,9 +56,11 @@ std::vector<double> row_of_beads(const Scene& scene);
 /// Adds a base of beads with centres at `x`, m.
 void add_bead_base(Boundaries& to, const Scene& scene, const std::vector<double>& x);
 
-/// Adds walls at both ends of the cell if Scene::lateral is `walls`, and along z if Scene::sides
-/// is.
+/// Adds walls at both ends of the cell along x if Scene::lateral is `walls`, and add_walls_along_z().
 void add_side_walls(Boundaries& to, const Scene& scene);
+
+/// Adds walls at both ends of the cell along z, of spheres, if Scene::sides is `walls`.
+void add_walls_along_z(Boundaries& to, const Scene& scene);
 
 /// A base along the whole cell (beads or a straight wall, see Scene::base), and side walls.
 Boundaries base_and_sides(const Scene& scene);

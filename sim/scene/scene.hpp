@@ -24,9 +24,10 @@ struct Scene {
   double size_ratio = 0;             // nominal d_L/d_S of large and small grains
   double large_diameter = 0;         // m, nominal d_L = size_ratio d_S; not a key
   double spread = 0;                 // (d_max - d_min)/d of the uniform diameters of each species
-  double density = 0;                // kg/m^2, of small grains and boundary grains
+  double density = 0;                // kg/m^2 (spheres: kg/m^3), of small and boundary grains
   double density_ratio = 0;          // density of large grains over density of small ones
-  double phi_large = 0;              // area fraction of large grains among all mobile grains
+  double phi_large = 0;              // share of large grains in the area (spheres: volume) of all
+                                     // mobile grains
   std::optional<long> large_grains;  // number of large grains, given instead
   enum class Initial { large_below, mixed, large_above } initial{};
   const Geometry* geometry = nullptr;
@@ -51,14 +52,15 @@ struct Scene {
   enum class Lateral { periodic, walls } lateral{}, sides{};  // ends along x, and along z
   enum class Origin { top, centre } origin{};
 
-  double drum_diameter = 0;    // m, inner diameter
-  double drum_rate = 0;        // rad/s, angular velocity of the drum, counter-clockwise
-  double fill = 0;             // share of the drum's area covered by the settled bed
-  double plate_speed = 0;      // m/s, of a shear cell
-  double plate_pressure = 0;   // N/m, of a shear cell
-  double plate_mass = 0;       // kg, of a shear cell
-  double column_width = 0;     // m, width of the column before the gate opens
-  double outlet = 0;           // m, width of a hopper's outlet
+  double drum_diameter = 0;   // m, inner diameter
+  double drum_rate = 0;       // rad/s, angular velocity of the drum, counter-clockwise
+  double fill = 0;            // part of the drum's cross-section that the settled bed covers
+  double plate_speed = 0;     // m/s, of a shear cell
+  double plate_pressure = 0;  // N/m (spheres: Pa), of a shear cell
+  double plate_mass = 0;      // kg, of a shear cell
+  double column_width = 0;    // m, width of the column before the gate opens
+  double outlet = 0;          // m, width of a hopper's outlet
+  enum class Outlet { slot, round } outlet_shape{};
   double shake_amplitude = 0;  // m, amplitude of the base's vertical motion
   double shake_frequency = 0;  // Hz
 

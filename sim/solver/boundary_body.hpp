@@ -10,7 +10,7 @@ namespace grseg {
 
 /// Boundary grains that move as one body, from t = 0 on. Their motion is prescribed. If the body
 /// has a mass, only its motion along x is prescribed; along y it follows from its load and its
-/// contacts.
+/// contacts. Bodies move in the plane of x and y and rotate about z, also in three dimensions.
 struct BoundaryBody {
   std::uint32_t begin = 0, end = 0;  ///< rows of its grains in Grains
   Vec2 velocity = Vec2::Zero();      ///< m/s, constant part of the velocity

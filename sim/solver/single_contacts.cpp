@@ -103,12 +103,10 @@ void take_motion(std::span<const Motion<D>> from, MotionOf<D, float>* to)
 {
   const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> single;
-  for (const auto& body : from) {
-    auto* number = members(to);
-    for (std::size_t k = 0; k < numbers_per_body<D>; k += hn::MaxLanes(d))
-      hn::Store(hn::DemoteTo(single, hn::Load(d, body.v.data() + k)), single, number + k);
-    (to++)->inverse_mass = 0;
-  }
+  const auto* numbers = reinterpret_cast<const double*>(from.data());
+  for (std::size_t k = 0; k < numbers_per_body<D> * from.size(); k += hn::MaxLanes(d))
+    hn::Store(hn::DemoteTo(single, hn::Load(d, numbers + k)), single, members(to) + k);
+  for (std::size_t k = 0; k < from.size(); ++k) to[k].inverse_mass = 0;
   leave_vectors();
 }
 

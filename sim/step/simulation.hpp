@@ -2,8 +2,8 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "sim/neighbours/detection.hpp"
 #include "sim/neighbours/grain_state.hpp"
+#include "sim/neighbours/impulse_memory.hpp"
 #include "sim/neighbours/pair_list.hpp"
 #include "sim/solver/solver.hpp"
 #include "sim/step/world.hpp"

@@ -267,13 +267,13 @@ TEST(AbsentGrains, DoNotMoveTheCentreOfMass)
     for (auto& velocity : packing->frame.velocity) velocity.setZero();
   MotionBalance<2> motion(gravity, step);
   for (const auto& packing : {before, after})
-    motion.add(total_motion(packing.grains, packing.frame, box), std::nullopt);
+    motion.add(total_motion(packing.grains, packing.frame, box, step), std::nullopt);
   EXPECT_FALSE(motion.same_grains());
   EXPECT_EQ(motion.stray(0), 0);
-  const auto total = total_motion(after.grains, after.frame, box);
+  const auto total = total_motion(after.grains, after.frame, box, step);
   const auto others = compacted(after);
-  EXPECT_EQ(total.mass, total_motion(others.grains, others.frame, box).mass);
-  EXPECT_EQ(total.centre, total_motion(others.grains, others.frame, box).centre);
+  EXPECT_EQ(total.mass, total_motion(others.grains, others.frame, box, step).mass);
+  EXPECT_EQ(total.centre, total_motion(others.grains, others.frame, box, step).centre);
 }
 
 // The momentum of a grain that appears or disappears is not the work of forces.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/neighbours/detection.hpp"
+#include "sim/neighbours/impulse_memory.hpp"
 #include "tests/bench/flow.hpp"
 
 #include <benchmark/benchmark.h>

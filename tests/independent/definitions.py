@@ -12,7 +12,7 @@ POWER = 2.0  # exponent Q of power:Q
 
 
 def layer_of(y, h):
-    """Number of the layer at height y: layer n is [n h, (n+1) h); the first layer includes everything below."""
+    """Number of the layer at height y: layer n is [n h, (n+1) h); the first layer includes what dips below y = 0."""
     return max(0, math.floor(y / h))
 
 

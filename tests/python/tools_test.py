@@ -265,6 +265,17 @@ def check_run(path, *windows, unfinished=False):
         check_contacts(run)
 
 
+def check_hopper():
+    """Grains that have left a hopper, which are in no layer."""
+    run_tool("sim", os.path.join(source, "sim", "scenes", "hopper.ini"), "--dimension", 3, "--width", "8dS", "--length", "12dS",
+             "--depth", "8dS", "--outlet", "5dS", "--duration", 0.5, "--frame-interval", 0.05, "-o", "hopper.h5")
+    with grseg.Run("hopper.h5") as run:
+        if run[-1].position[run.mobile, 1].min() > -2 * run.large_diameter:
+            raise Difference("no grain has left the hopper")
+        check_contact_sums(run, {"window": 0.2})
+        check_kinetic_sums(run, {"window": 0.2})
+
+
 def check_all_fits(sample):
     stress = ("--partition", "power:2", "--window", "1")
     run_tool("stress", sample, *stress, "--end", "10", "-o", "first.tsv")
@@ -386,6 +397,7 @@ def main():
                           {"layer": "3dS", "window": "all", "begin": 0.01})
             check_run("spheres.h5", {"layer": "3dS", "window": 0.4})
             check_run("discs.h5", {"layer": "2dS", "window": 0.03})
+            check_hopper()
             check_run(sample, {"window": 5, "begin": 3.3, "end": 14}, {"layer": "1.5dS", "window": 2.5, "stride": 3})
             check_all_fits(sample)
             check_beds(sample)

@@ -753,6 +753,9 @@ def check_walls_and_one_species():
         page.run("document.getElementById('tab-report').click()")
         page.settle()
         assert "B is not shown" in page.text("report")
+        # Without large grains there are no forces on them, and no axes without a plot.
+        assert "The run has no such values." in page.text("report")
+        assert page.run("return Array.from(document.querySelectorAll('#report svg')).every((plot) => plot.querySelector('.tick'))")
 
 
 def check_two_mixtures():

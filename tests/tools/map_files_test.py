@@ -4,6 +4,7 @@ an XML parser. Impossible names and settings are refused.
 Usage: map_files_test.py GRSEG-STRESS GRSEG-KINETIC GRSEG-MICRO GRSEG-FIT RUN.h5
 """
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -158,7 +159,10 @@ def check_refusals():
     refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "use centre")
     refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "use centre")
     refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro has layers, xy and xz")
-    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "use layer, instant or instant-unbiased")
+    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "use layer, instant, instant-unbiased or species")
+    for mean in "instant", "instant-unbiased", "species":
+        subprocess.run([kinetic, run, *MAP, "--mean", mean], check=True, capture_output=True)
+    assert not re.search("radius:|rz", subprocess.run([micro, "--help"], check=True, capture_output=True, text=True).stdout)
     refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "the cells are too small")
     refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json writes text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0

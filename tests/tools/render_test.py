@@ -168,6 +168,7 @@ def check_bytes():
 
 
 def check_refusals():
+    takes = fake("takes", 'cat > "$file"')
     output = ["-o", "new.png"]
     refused(2, "name what to write: -o NAME.png", three)
     refused(2, "-o 'new.jpg': name a picture that ends in .png, .svg or .pdf, or a film that ends in .mp4 or .webm",
@@ -193,6 +194,10 @@ def check_refusals():
             "--width", "64", "--region", "0:1e-5m,0:1m", *BARE, *output)
     refused(2, "the picture is too narrow for its height; choose another --width or --region", three, "--region",
             "0:1e-5m,0:1m", *output)
+    nowhere = ["--region", "0.05m:0.1m,0.1m:0.12m"]
+    for words in ["--at", "start,end", *output], ["-o", "new.mp4"]:
+        refused(2, "no grain is in --region '0.05m:0.1m,0.1m:0.12m': the grains lie at x = 4.5 to 5.8 cm, y = -1 to 1.5 cm", three,
+                *nowhere, *words, path=takes)
     open("text.h5", "w").write("no run")
     refused(3, "text.h5: is not an HDF5 file, or is truncated or damaged", "text.h5", *output)
 

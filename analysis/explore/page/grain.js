@@ -140,7 +140,7 @@ export class GrainPanel {
       "h3",
       {},
       `Grain ${row[grain]}, ${name(species[grain])}`,
-      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} contacts${flat ? "" : " with grains in the cut"}`),
+      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} ${contacts.length === 1 ? "contact" : "contacts"}${flat ? "" : " with grains in the cut"}`),
     );
     const rows = contacts.map((contact) => {
       const p = contact.mixed ? shareOfContact(state.rule, ...contact.radii) : NaN;

@@ -10,7 +10,7 @@ const charts = [];
 
 /**
  * A figure with a chart, which layoutReport() draws as soon as its width is known. `domains(x, y)` sets the domains of the
- * scales, or returns false if there is nothing to draw. `paths(x, y, chart)` returns pairs [CSS class, outline]. `lines`:
+ * scales, or returns false if there is nothing to draw, which is then said. `paths(x, y, chart)` returns pairs [CSS class, outline]. `lines`:
  * pairs [CSS class, name] for the key in the caption.
  */
 function figure(caption, labels, domains, paths, lines = []) {
@@ -19,7 +19,8 @@ function figure(caption, labels, domains, paths, lines = []) {
   const chart = new Chart(host, {height: 240, scales: {x: scaleLinear(), y: scaleLinear()}, name: caption, labels});
   const {x, y} = chart.scales;
   charts.push(() => {
-    if (!(host.clientWidth > 0) || domains(x, y) === false) return;
+    if (!(host.clientWidth > 0)) return;
+    if (domains(x, y) === false) return host.replaceChildren(element("p", {class: "note"}, "The run has no such values."));
     chart.layout();
     chart.under.selectAll("*").remove();
     for (const [look, outline] of paths(x, y, chart)) chart.under.append("path").attr("class", look).attr("d", outline);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/words.hpp"
 #include "formats/import/common/frame_tools.hpp"
 #include "formats/import/convert/imported_bed.hpp"
 #include "formats/import/convert/scan.hpp"
@@ -109,7 +110,7 @@ void place_grains(const ImportedBed& bed, const ArchiveFrame& raw, Frame<3>& fra
         fmt::format("{}: {}; not all frames have the grains of the first one", raw.place, what));
   };
   if (!bed.grains_come_and_go && from.size() != n)
-    refuse_others(fmt::format("{} grains, but {} in the first frame", from.size(), n));
+    refuse_others(fmt::format("{}, but {} in the first frame", counted(from.size(), "grain"), n));
   if (bed.counts_periods && from.size() > 0 && !from.counts_periods())
     throw FormatError(fmt::format(
         "{}: earlier frames state how often grains have crossed the periodic cell, and this one "

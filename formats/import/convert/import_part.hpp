@@ -21,7 +21,7 @@ namespace grseg {
 /// late damping in the archive's units), and the sums that the checks accumulate, in SI.
 struct FrameRecord {
   std::optional<Residual> residual;
-  CheckFrame numbers;
+  CheckNumbers numbers;
 };
 
 /// The observables of an imported run, and their values. A part has additional ones at the end.

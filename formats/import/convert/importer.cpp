@@ -5,6 +5,7 @@
 #include "formats/cli/output.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/tool.hpp"
+#include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
@@ -389,10 +390,10 @@ ImportReport import_archive(const ImportSettings& settings, const std::string& c
 
 std::string to_text(const ImportReport& report)
 {
-  std::string text =
-      fmt::format("{} frames from {:g} to {:g} s, {} grains, {} contacts{}\n", report.frames,
-                  report.first_time, report.last_time, report.grains, report.contacts,
-                  report.dimension == 3 ? ", in three dimensions" : "");
+  std::string text = fmt::format(
+      "{} from {:g} to {:g} s, {}, {}{}\n", counted(report.frames, "frame"), report.first_time,
+      report.last_time, counted(report.grains, "grain"), counted(report.contacts, "contact"),
+      report.dimension == 3 ? ", in three dimensions" : "");
   const auto& parameters = report.parameters;
   const auto number = [&](const char* name) { return parameters.find_number(name); };
   const auto columns = parameters.text("import_columns");

@@ -170,7 +170,8 @@ std::vector<std::string> InferredWalls::counts() const
 {
   std::vector<std::string> remarks;
   if (contacts_ > 0)
-    remarks.push_back(fmt::format("{} to {} grains touch these walls in a frame", fewest_, most_));
+    remarks.push_back(fmt::format("number of grains that touch these walls in a frame: {} to {}",
+                                  fewest_, most_));
   if (at_two_ > 0)
     remarks.push_back(fmt::format(
         "{1} times a grain touches more than one of these walls ({0} contacts in all): the "

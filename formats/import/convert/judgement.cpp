@@ -96,12 +96,12 @@ Parameters Judgement::close(ImportReport& report, bool strict) const
   return last;
 }
 
-std::string Judgement::also_failed(const CheckFrame& frame) const
+std::string Judgement::also_failed(const CheckNumbers& numbers) const
 {
   static const std::set<std::string> of_one_frame{"contacts", "completeness", "overlap", "pull",
                                                   "balance"};
   auto series = series_;
-  series.push_back(frame);
+  series.push_back(numbers);
   std::string text;
   for (const auto& finding : judge(series, context_))
     if (finding.verdict == Verdict::failed && !of_one_frame.contains(finding.check))

@@ -25,9 +25,9 @@ class Judgement {
   /// Fills in the report's results over all frames, and returns them as parameters. Throws
   /// CheckError if a check fails or, with `strict`, is undecided.
   Parameters close(ImportReport& report, bool strict) const;
-  /// Messages of the checks over all frames that fail once `frame` is included: a possible cause
-  /// of this frame's error. Example: "; gravity: the archive suggests ...".
-  std::string also_failed(const CheckFrame& frame) const;
+  /// Messages of the checks over all frames that fail once the `numbers` of a frame are included: a
+  /// possible cause of this frame's error. Example: "; gravity: the archive suggests ...".
+  std::string also_failed(const CheckNumbers& numbers) const;
 
  private:
   void add_residuals_to(Parameters& parameters) const;

@@ -13,7 +13,8 @@
 namespace grseg {
 
 /// Settings in which each file that was named without an option has a role (grains, contacts, ...),
-/// recognised by its content. --format must be known. Throws UsageError if a file's role cannot be recognised.
+/// recognised by its content. --format must be known. Throws UsageError if a file's role cannot be
+/// recognised.
 ImportSettings with_known_files(const ImportSettings& settings);
 
 /// Settings completed from the content of the files: the format, and which files named without an

@@ -29,7 +29,7 @@ class VerifiedFrames {
   const std::optional<Complaint>& complaint() const { return complaint_; }
   const std::optional<Residual>& residual() const { return verification_.residual(); }
   /// Quantities that the checks compute from the last frame, in the archive's units.
-  const CheckFrame& numbers() const { return verification_.numbers(); }
+  const CheckNumbers& numbers() const { return verification_.numbers(); }
   const std::string& place() const { return scanned_.frame.place; }
 
   const ScannedArchive& scanned() const { return scanned_; }

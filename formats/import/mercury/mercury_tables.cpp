@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/mercury/mercury_tables.hpp"
 
+#include "formats/cli/words.hpp"
 #include "formats/import/common/text_values.hpp"
 
 #include <fmt/format.h>
@@ -105,7 +106,7 @@ void MercuryData::require_rows_that_name_grains(const ArchiveFrame& frame) const
   };
   const auto& radius = frame.grains.radius;
   const auto now = radius.size(), before = last_radius_.size();
-  if (now < before) fail(fmt::format("{} grains, but {} before", now, before));
+  if (now < before) fail(fmt::format("{}, but {} before", counted(now, "grain"), before));
   for (std::size_t g = 0; g < before; ++g)
     if (std::abs(radius[g] - last_radius_[g]) > 1e-5 * last_radius_[g])
       fail(fmt::format("row {} has the radius {:g}, but {:g} before", g, radius[g],
@@ -119,9 +120,9 @@ void MercuryData::require_rows_that_name_grains(const ArchiveFrame& frame) const
 void MercuryData::add_restart_facts(const std::string& place, ArchiveGrains& grains) const
 {
   if (restart_->particles.size() < grains.size())
-    throw FormatError(
-        fmt::format("{}: {} grains, but only {} in {}; name the last .restart of the run", place,
-                    grains.size(), restart_->particles.size(), restart_path_));
+    throw FormatError(fmt::format("{}: {}, but only {} in {}; name the last .restart of the run",
+                                  place, counted(grains.size(), "grain"),
+                                  restart_->particles.size(), restart_path_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const auto& particle = restart_->particles[g];
     if (std::abs(particle.radius - grains.radius[g]) > 1e-5 * particle.radius)

@@ -47,7 +47,8 @@ class Waivers {
   explicit Waivers(const std::vector<std::string>& texts);
 
   std::optional<double> of(const std::string& check) const;
-  /// The limit of a check: the measure that the user accepts (--accept), or `otherwise` without one.
+  /// The limit of a check: the measure that the user accepts (--accept), or `otherwise` without
+  /// one.
   double limit(const std::string& check, double otherwise) const
   {
     return of(check).value_or(otherwise);

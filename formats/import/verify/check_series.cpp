@@ -8,24 +8,24 @@
 namespace grseg {
 namespace {
 
-/// Calls `visit` with the name, the unit and a reference of every number of a CheckFrame.
+/// Calls `visit` with the name, the unit and a reference of every number about a frame.
 template <class Checked, class Visit>
-void visit_numbers(Checked& frame, const Visit& visit)
+void visit_numbers(Checked& numbers, const Visit& visit)
 {
-  visit("distance", "", frame.distance);
-  visit("gap", "", frame.gap);
-  visit("overlap", "", frame.overlap);
-  visit("pull", "", frame.pull);
-  visit("unlisted", "", frame.unlisted);
-  visit("unlisted_pairs", "", frame.unlisted_pairs);
-  visit("unlisted_may_part", "", frame.unlisted_may_part);
-  visit("rigid", "", frame.rigid);
-  visit("balance", "", frame.balance);
-  visit("balance_grains", "", frame.balance_grains);
-  visit("balance_worst", "", frame.balance_worst);
-  visit("change", "", frame.change);
-  visit("acceleration", "m s-2", frame.acceleration);
-  visit("medians", "", frame.medians);
+  visit("distance", "", numbers.distance);
+  visit("gap", "", numbers.gap);
+  visit("overlap", "", numbers.overlap);
+  visit("pull", "", numbers.pull);
+  visit("unlisted", "", numbers.unlisted);
+  visit("unlisted_pairs", "", numbers.unlisted_pairs);
+  visit("unlisted_may_part", "", numbers.unlisted_may_part);
+  visit("rigid", "", numbers.rigid);
+  visit("balance", "", numbers.balance);
+  visit("balance_grains", "", numbers.balance_grains);
+  visit("balance_worst", "", numbers.balance_worst);
+  visit("change", "", numbers.change);
+  visit("acceleration", "m s-2", numbers.acceleration);
+  visit("medians", "", numbers.medians);
   const auto visit_estimate = [&](const std::string& name, auto& estimate) {
     visit(name + "_grains", "", estimate.grains);
     visit(name + "_x", "m s-2", estimate.gravity.x());
@@ -33,9 +33,9 @@ void visit_numbers(Checked& frame, const Visit& visit)
     visit(name + "_z", "m s-2", estimate.gravity.z());
     visit(name + "_error", "m s-2", estimate.error);
   };
-  visit_estimate("gravity", frame.all);
-  visit_estimate("gravity_smaller", frame.smaller);
-  visit_estimate("gravity_larger", frame.larger);
+  visit_estimate("gravity", numbers.all);
+  visit_estimate("gravity_smaller", numbers.smaller);
+  visit_estimate("gravity_larger", numbers.larger);
   const auto visit_sums = [&](const std::string& name, auto& sums, const char* square,
                               const char* fourth) {
     visit(name + "_grains", "", sums.grains);
@@ -46,8 +46,8 @@ void visit_numbers(Checked& frame, const Visit& visit)
     visit(name + "_xx_xy", fourth, sums.xx_xy);
     visit(name + "_xy_xy", fourth, sums.xy_xy);
   };
-  visit_sums("motion", frame.motion, "", "");
-  visit_sums("force", frame.force, "m2 s-4", "m4 s-8");
+  visit_sums("motion", numbers.motion, "", "");
+  visit_sums("force", numbers.force, "m2 s-4", "m4 s-8");
 }
 
 /// Relative rounding error of contact forces in text of six digits.
@@ -124,27 +124,27 @@ SlopeSums& SlopeSums::operator+=(const SlopeSums& other)
   return *this;
 }
 
-CheckFrame in_si(CheckFrame frame, const Units& units)
+CheckNumbers in_si(CheckNumbers numbers, const Units& units)
 {
   const double acceleration = units.acceleration(), square = acceleration * acceleration;
-  frame.time *= units.time;
-  frame.acceleration *= acceleration;
-  for (auto* estimate : {&frame.all, &frame.smaller, &frame.larger}) {
+  numbers.time *= units.time;
+  numbers.acceleration *= acceleration;
+  for (auto* estimate : {&numbers.all, &numbers.smaller, &numbers.larger}) {
     estimate->gravity *= acceleration;
     estimate->error *= acceleration;
   }
-  auto& force = frame.force;
+  auto& force = numbers.force;
   for (auto* sum : {&force.xx, &force.xy, &force.yy}) *sum *= square;
   for (auto* sum : {&force.xx_xx, &force.xx_xy, &force.xy_xy}) *sum *= square * square;
-  return frame;
+  return numbers;
 }
 
 const std::vector<Observable>& check_observables()
 {
   static const auto observables = [] {
     std::vector<Observable> all;
-    const CheckFrame frame;
-    visit_numbers(frame, [&](const std::string& name, const char* unit, const double&) {
+    const CheckNumbers numbers;
+    visit_numbers(numbers, [&](const std::string& name, const char* unit, const double&) {
       all.push_back({"check_" + name, unit});
     });
     return all;
@@ -152,22 +152,23 @@ const std::vector<Observable>& check_observables()
   return observables;
 }
 
-std::vector<double> check_values(const CheckFrame& frame)
+std::vector<double> check_values(const CheckNumbers& numbers)
 {
   std::vector<double> values;
-  visit_numbers(frame, [&](const std::string&, const char*, const double& value) {
+  visit_numbers(numbers, [&](const std::string&, const char*, const double& value) {
     values.push_back(value);
   });
   return values;
 }
 
-void set_check_values(CheckFrame& frame, const std::vector<double>& values)
+void set_check_values(CheckNumbers& numbers, const std::vector<double>& values)
 {
   auto value = values.begin();
-  visit_numbers(frame, [&](const std::string&, const char*, double& place) { place = *value++; });
+  visit_numbers(numbers, [&](const std::string&, const char*, double& place) { place = *value++; });
 }
 
-std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckFrame::*which)
+std::optional<Estimate> gravity_from(const CheckSeries& series,
+                                     GravityEstimate CheckNumbers::*which)
 {
   std::vector<Weighted> medians, sums;
   double squared_within = 0, grains = 0;
@@ -208,17 +209,17 @@ std::optional<Slope> slope_of(const SlopeSums& s)
   return slope;
 }
 
-SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckFrame::*which)
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckNumbers::*which)
 {
   SlopeSums sums;
-  for (const auto& frame : series) sums += frame.*which;
+  for (const auto& numbers : series) sums += numbers.*which;
   return sums;
 }
 
 std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, double tolerance)
 {
   return differing_halves(
-      series, [](const CheckSeries& half) { return gravity_from(half, &CheckFrame::all); },
+      series, [](const CheckSeries& half) { return gravity_from(half, &CheckNumbers::all); },
       [&](const Estimate& first, const Estimate& second) {
         return !((second.value - first.value).norm() <=
                  std::max(tolerance, 5 * std::hypot(first.error, second.error)));
@@ -226,7 +227,7 @@ std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, dou
 }
 
 std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
-                                             SlopeSums CheckFrame::*which)
+                                             SlopeSums CheckNumbers::*which)
 {
   return differing_halves(
       series, [&](const CheckSeries& half) { return slope_of(sums_of(half, which)); },

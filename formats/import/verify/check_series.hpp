@@ -38,8 +38,8 @@ struct SlopeSums {
   SlopeSums& operator+=(const SlopeSums& other);
 };
 
-/// The numbers of one frame.
-struct CheckFrame {
+/// Numbers about one frame.
+struct CheckNumbers {
   std::int64_t step = 0;
   double time = 0;  // s
 
@@ -54,7 +54,8 @@ struct CheckFrame {
   double unlisted = 0, unlisted_pairs = 0;
   /// 1 if the unlisted pairs may transmit no force, as in contact dynamics.
   double unlisted_may_part = 0;
-  /// Fraction of the mobile grains that move as one rigid body with a neighbour without a contact.
+  /// Fraction of the mobile grains that move as one rigid body with a neighbour without a contact,
+  /// although the archive's forces do not keep them together.
   double rigid = 0;
 
   /// Largest force that is missing in a grain's balance, relative to the largest force; number of
@@ -79,14 +80,14 @@ struct CheckFrame {
 };
 
 /// Converts from the units of an archive to SI.
-CheckFrame in_si(CheckFrame frame, const Units& units);
+CheckNumbers in_si(CheckNumbers numbers, const Units& units);
 
-using CheckSeries = std::vector<CheckFrame>;
+using CheckSeries = std::vector<CheckNumbers>;
 
 /// The observables that store the numbers of a frame, and their values, in the same order.
 const std::vector<Observable>& check_observables();
-std::vector<double> check_values(const CheckFrame& frame);
-void set_check_values(CheckFrame& frame, const std::vector<double>& values);
+std::vector<double> check_values(const CheckNumbers& numbers);
+void set_check_values(CheckNumbers& numbers, const std::vector<double>& values);
 
 /// A vector and its standard error.
 struct Estimate {
@@ -104,7 +105,8 @@ inline constexpr std::size_t fewest_pairs = 8;
 /// mean, weighted by numbers of grains, with the larger of the standard errors within frames and
 /// between frames. Otherwise from sums over all grains: their mean over time, with a standard error
 /// that includes correlations of successive frames; empty for fewer than `fewest_pairs` pairs.
-std::optional<Estimate> gravity_from(const CheckSeries& series, GravityEstimate CheckFrame::*which);
+std::optional<Estimate> gravity_from(const CheckSeries& series,
+                                     GravityEstimate CheckNumbers::*which);
 
 /// Values in the first and the second half of the frames.
 template <class Value>
@@ -128,10 +130,10 @@ inline constexpr double slope_tolerance = 0.1, sharp_slope = 0.5 - slope_toleran
 
 /// The slope; empty for fewer than three grains, or if `doubt` is larger than 0.1.
 std::optional<Slope> slope_of(const SlopeSums& sums);
-SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckFrame::*which);
+SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckNumbers::*which);
 
 /// The slopes of both halves, if they differ by more than their uncertainties and slope_tolerance.
 std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,
-                                             SlopeSums CheckFrame::*which);
+                                             SlopeSums CheckNumbers::*which);
 
 }  // namespace grseg

@@ -218,7 +218,7 @@ void FrameStatistics::add_inertia(SlopeSums& sums, const Frame<3>& frame, const 
   }
 }
 
-void FrameStatistics::add_to(CheckFrame& numbers, const Frame<3>& frame, const Vectors& sums,
+void FrameStatistics::add_to(CheckNumbers& numbers, const Frame<3>& frame, const Vectors& sums,
                              const std::optional<FrameBefore>& before, bool close,
                              bool has_images) const
 {

@@ -23,7 +23,7 @@ std::vector<Vec3> contact_sums(std::size_t grains, const ContactList<3>& contact
 double change_of_sums(const Grains& grains, const Frame<3>& frame, const std::vector<Vec3>& before,
                       const std::vector<Vec3>& now);
 
-/// Computes the numbers of a CheckFrame about weights, inertia and displacements: from
+/// Computes the members of CheckNumbers about weights, inertia and displacements: from
 /// `acceleration` to the end. In any consistent units.
 class FrameStatistics {
  public:
@@ -32,7 +32,7 @@ class FrameStatistics {
   /// Fills in these numbers. `sums` are the contact forces on each grain. `before` is the previous
   /// frame, empty for the first one. `close`: both frames are close together (judge.hpp).
   /// `has_images`: the archive states images.
-  void add_to(CheckFrame& numbers, const Frame<3>& frame, const std::vector<Vec3>& sums,
+  void add_to(CheckNumbers& numbers, const Frame<3>& frame, const std::vector<Vec3>& sums,
               const std::optional<FrameBefore>& before, bool close, bool has_images) const;
 
   /// Excludes grains (flags by row) from weights, because their balance was used to infer a wall's

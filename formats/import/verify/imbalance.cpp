@@ -305,9 +305,12 @@ std::string likely_cause(const Imbalance& imbalance, const std::array<AxisInArch
   const auto overlapping = deeply_overlapping(grains, contacts, unbalanced);
   if (static_cast<double>(overlapping) >= most * static_cast<double>(unbalanced.size()))
     return fmt::format(
-        "; {} of the {} grains that do not balance overlap others by more than {} of a radius: the "
-        "bed may still be filling; begin later with --begin",
-        overlapping, unbalanced.size(), deep);
+        "; {} others by more than {} of a radius: the bed may still be filling; begin later with "
+        "--begin",
+        unbalanced.size() == 1 ? "the only grain that does not balance overlaps"
+                               : fmt::format("{} of the {} grains that do not balance overlap",
+                                             overlapping, unbalanced.size()),
+        deep);
   return "";
 }
 

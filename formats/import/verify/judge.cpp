@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/judge.hpp"
 
+#include "formats/cli/words.hpp"
 #include "formats/import/common/frame_tools.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace grseg {
 namespace {
 
-double largest(const CheckSeries& series, double CheckFrame::*number)
+double largest(const CheckSeries& series, double CheckNumbers::*number)
 {
   double value = 0;
   for (const auto& frame : series) value = std::max(value, frame.*number);
@@ -26,8 +27,8 @@ Finding within(const char* check, double measure, double limit, const std::strin
 
 Finding judge_contacts(const CheckSeries& series)
 {
-  const double distance = largest(series, &CheckFrame::distance);
-  const double gap = largest(series, &CheckFrame::gap);
+  const double distance = largest(series, &CheckNumbers::distance);
+  const double gap = largest(series, &CheckNumbers::gap);
   auto finding = within(
       "contacts", std::max(distance, gap), widest_gap,
       fmt::format("grains that exert a force on each other are up to {:.2g} of the smaller radius "
@@ -40,7 +41,7 @@ Finding judge_contacts(const CheckSeries& series)
 
 Finding judge_completeness(const CheckSeries& series)
 {
-  const double rigid = largest(series, &CheckFrame::rigid);
+  const double rigid = largest(series, &CheckNumbers::rigid);
   if (rigid > fewest_rigid)
     return {"completeness", Verdict::failed,
             fmt::format("up to {:.2g} of the grains are parts of rigid bodies", rigid),
@@ -54,9 +55,10 @@ Finding judge_completeness(const CheckSeries& series)
   if (pairs == 0)
     return {"completeness", Verdict::passed, "grains that overlap are listed as contacts", 0};
   const auto sentence = fmt::format(
-      "up to {:.0f} pairs of a frame overlap, by up to {:.2g} of the smaller radius, "
-      "and are not listed as contacts",
-      pairs, std::max(missing, may_part));
+      "up to {} of a frame overlap{}, by up to {:.2g} of the smaller radius, without being listed "
+      "as {}",
+      counted(static_cast<std::size_t>(pairs), "pair"), pairs == 1 ? "s" : "",
+      std::max(missing, may_part), pairs == 1 ? "a contact" : "contacts");
   if (missing > 0) return within("completeness", missing, 0, sentence);
   return {"completeness", Verdict::undecided,
           sentence +
@@ -150,8 +152,8 @@ std::optional<Finding> by_own_times(const CheckSeries& series, const CheckContex
 std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context)
 {
   const auto gravity = judge_gravity(series, context);
-  const double overlap = largest(series, &CheckFrame::overlap);
-  const double pull = largest(series, &CheckFrame::pull);
+  const double overlap = largest(series, &CheckNumbers::overlap);
+  const double pull = largest(series, &CheckNumbers::pull);
   std::vector<Finding> findings{
       judge_contacts(series),
       judge_completeness(series),
@@ -207,7 +209,7 @@ Finding judge_sizes(const CheckContext& context)
 Finding judge_time(const CheckSeries& series, const CheckContext& context)
 {
   if (auto finding = by_own_times(series, context)) return *finding;
-  const auto slope = slope_of(sums_of(series, &CheckFrame::motion));
+  const auto slope = slope_of(sums_of(series, &CheckNumbers::motion));
   if (series.size() < 2)
     return undecided_time(context,
                           "a single frame has no displacements to compare velocities with");
@@ -216,7 +218,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
         context,
         "too few grains have a steady velocity from one frame to the next to compare "
         "displacements with velocities");
-  if (const auto change = change_of_slope(series, &CheckFrame::motion))
+  if (const auto change = change_of_slope(series, &CheckNumbers::motion))
     return {
         "time", Verdict::failed,
         fmt::format("displacements are {:.4g} times velocity times time in the first half of the "

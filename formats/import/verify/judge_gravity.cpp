@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/words.hpp"
 #include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/check_series.hpp"
 #include "formats/import/verify/judge.hpp"
@@ -89,9 +90,11 @@ std::string remedy(const CheckContext& context, const Estimate& estimate)
 
 std::string source(const Estimate& found)
 {
-  return fmt::format("from {} {:.0f} grains in {} {}",
-                     found.medians ? "the median over" : "the sum over", found.grains, found.frames,
-                     found.medians ? (found.frames == 1 ? "frame" : "frames") : "pairs of frames");
+  const auto grains = counted(static_cast<std::size_t>(std::lround(found.grains)), "grain");
+  const auto frames =
+      found.medians ? counted(found.frames, "frame") : counted(found.frames, "pair") + " of frames";
+  return fmt::format("from {} over {} in {}", found.medians ? "the median" : "the sum", grains,
+                     frames);
 }
 
 Finding turning(const CheckSeries& series, const CheckContext& context,
@@ -127,9 +130,9 @@ Finding part(Verdict verdict, const std::string& sentence, double measure = 0)
 Finding by_size(const CheckSeries& series, const CheckContext& context)
 {
   if (!(context.size_ratio > 1)) return part(Verdict::undecided, "all grains have one size");
-  const auto all = gravity_from(series, &CheckFrame::all);
-  const auto smaller = gravity_from(series, &CheckFrame::smaller);
-  const auto larger = gravity_from(series, &CheckFrame::larger);
+  const auto all = gravity_from(series, &CheckNumbers::all);
+  const auto smaller = gravity_from(series, &CheckNumbers::smaller);
+  const auto larger = gravity_from(series, &CheckNumbers::larger);
   if (!all || !smaller || !larger)
     return part(Verdict::undecided, "the weights of small and large grains are not known apart");
   const Vec3 down = all->value.normalized();
@@ -163,8 +166,8 @@ Finding by_size(const CheckSeries& series, const CheckContext& context)
 /// Compares force over acceleration with the mass, for grains with a known acceleration.
 Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 {
-  const auto slope = slope_of(sums_of(series, &CheckFrame::force));
-  if (const auto change = change_of_slope(series, &CheckFrame::force))
+  const auto slope = slope_of(sums_of(series, &CheckNumbers::force));
+  if (const auto change = change_of_slope(series, &CheckNumbers::force))
     return part(
         Verdict::failed,
         fmt::format("force over acceleration is {:.4g} times the mass in the first half of the "
@@ -195,7 +198,7 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 
 Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
 {
-  const auto found = gravity_from(series, &CheckFrame::all);
+  const auto found = gravity_from(series, &CheckNumbers::all);
   if (!found)
     return undecided_gravity(
         context, fmt::format("without forces on grains, an estimate of gravity needs {} pairs of "

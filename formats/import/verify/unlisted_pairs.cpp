@@ -2,15 +2,14 @@
 #include "formats/import/verify/unlisted_pairs.hpp"
 
 #include "formats/import/common/frame_tools.hpp"
+#include "formats/import/verify/rigid_pairs.hpp"
 
 #include <gsl/gsl_statistics_double.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <tuple>
 
 namespace grseg {
@@ -129,28 +128,7 @@ std::vector<Vec3> shifts(const Box& box)
 
 /// Largest gap between grains of one rigid body, over the smaller radius.
 constexpr double widest = 0.05;
-/// Relative difference up to which two motions count as equal. Velocities have six digits, and the
-/// rotation may be a hundredth of them.
-constexpr double same_motion = 1e-4;
-
 constexpr double errors = 3, part_of_median = 0.25;
-
-/// True if two grains move as one rigid body: they turn alike, and their relative velocity follows
-/// from this turning. Without turning, no velocity does; then `joined` grains count as one body if
-/// they do not approach or part along their branch.
-bool moves_as_one(const Box& box, const Frame<3>& frame, const NearPair& pair, bool joined)
-{
-  const auto i = row(pair.i), j = row(pair.j);
-  const double spin = frame.angular_velocity[i].norm();
-  const Vec3 other = frame.angular_velocity[i] - frame.angular_velocity[j];
-  if (other.norm() > same_motion * spin) return false;
-  const Vec3 branch = minimum_image(box, frame.position[i] - frame.position[j]);
-  const Vec3 relative = frame.velocity[i] - frame.velocity[j];
-  if (spin == 0)
-    return joined && std::abs(relative.dot(branch)) < same_motion * relative.norm() * branch.norm();
-  const Vec3 turning = frame.angular_velocity[i].cross(branch);
-  return (relative - turning).norm() <= same_motion * spin * branch.norm();
-}
 
 /// True if normal forces grow with overlaps, by their rank correlation. In single frames it was
 /// 0.79 to 1 in archives of soft grains (LAMMPS, LIGGGHTS, YADE), and 0.04 to 0.66 in contact
@@ -170,16 +148,6 @@ bool forces_grow_with_overlaps(const ContactList<3>& contacts)
   std::vector<double> work(2 * forces.size());
   return gsl_stats_spearman(forces.data(), 1, overlaps.data(), 1, forces.size(), work.data()) >
          soft;
-}
-
-double part_of_mobile(const Grains& grains, const std::vector<NearPair>& pairs)
-{
-  if (pairs.empty()) return 0;
-  std::set<std::int32_t> members;
-  for (const auto& pair : pairs) members.insert({pair.i, pair.j});
-  double mobile = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) mobile += is_mobile(grains, g);
-  return mobile > 0 ? static_cast<double>(members.size()) / mobile : 0;
 }
 
 }  // namespace
@@ -286,7 +254,6 @@ UnlistedPairs unlisted_pairs_of(const Grains& grains, const Box& box, const Fram
   std::sort(found.unlisted.begin(), found.unlisted.end(),
             [](const NearPair& a, const NearPair& b) { return a.gap < b.gap; });
   if (!found.unlisted.empty()) found.forces_grow = forces_grow_with_overlaps(frame.contacts);
-  found.rigid_grains = part_of_mobile(grains, found.rigid);
   return found;
 }
 

@@ -51,7 +51,6 @@ struct UnlistedPairs {
   /// Pairs without a row that move as one rigid body, with equal angular velocities. If these are
   /// 0: pairs of `unlisted` that move at constant distance.
   std::vector<NearPair> rigid;
-  double rigid_grains = 0;  // grains in `rigid` pairs, as a fraction of the mobile grains
 
   double deepest() const { return unlisted.empty() ? 0 : -unlisted.front().gap; }
 };

@@ -3,6 +3,7 @@
 
 #include "formats/import/common/frame_tools.hpp"
 #include "formats/import/verify/judge.hpp"
+#include "formats/import/verify/rigid_pairs.hpp"
 
 #include <fmt/format.h>
 
@@ -135,7 +136,7 @@ std::optional<Complaint> Verification::touching(const Frame<3>& frame, std::size
 std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
                                                     const ListedPairs& listed)
 {
-  const auto found =
+  auto found =
       unlisted_pairs_of(grains_, box_, frame, listed, std::max(numbers_.gap, numbers_.distance));
   const bool is_soft = accuracy_.lists_all || found.forces_grow;
   const bool all_balance =
@@ -145,16 +146,25 @@ std::optional<Complaint> Verification::completeness(const Frame<3>& frame,
     numbers_.unlisted_pairs = static_cast<double>(found.unlisted.size());
     numbers_.unlisted_may_part = !is_soft && !residual_ && !found.unlisted.empty();
   }
-  numbers_.rigid = found.rigid_grains;
+  if (all_balance) {
+    // Accelerations that follow from velocities contain inner forces; forces in an archive may not.
+    if (frame.force.empty())
+      found.rigid.clear();
+    else
+      remove_plugs(grains_, box_, frame, accuracy_.inertia, found.rigid);
+  }
+  numbers_.rigid = part_of_mobile(grains_, found.rigid);
   const double limit = waivers_.limit("completeness", 0);
   if (numbers_.rigid > fewest_rigid && limit < rigid_bodies)
     return Complaint{
         "completeness",
         fmt::format(
             "{:.0f} % of the grains move as one body with a neighbour without a contact (the "
-            "first: {}): rigid bodies of several grains are not supported, "
-            "because the forces inside them are unknown",
-            100 * found.rigid_grains, pair_of(found.rigid.front().i, found.rigid.front().j))};
+            "first: {}): rigid bodies of several grains are not supported, because the forces "
+            "inside them are unknown; if they are single grains of a bed that turns as a plug, "
+            "--accept-residual completeness={:g} accepts it",
+            100 * numbers_.rigid, pair_of(found.rigid.front().i, found.rigid.front().j),
+            rigid_bodies)};
   if (numbers_.unlisted > limit && numbers_.unlisted_may_part == 0)
     return Complaint{"completeness", missing_rows_of(found), true};
   return std::nullopt;

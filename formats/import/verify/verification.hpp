@@ -69,7 +69,7 @@ class Verification {
   /// Residuals of the last frame; empty if no force or acceleration of the grains is known.
   const std::optional<Residual>& residual() const { return residual_; }
   /// Numbers of the last frame for checks over many frames, in the units of the grains.
-  const CheckFrame& numbers() const { return numbers_; }
+  const CheckNumbers& numbers() const { return numbers_; }
 
  private:
   using Forces = std::vector<Vec3>;
@@ -116,7 +116,7 @@ class Verification {
   std::array<AxisInArchive, 3> axes_;
   FrameStatistics statistics_;
   std::optional<Residual> residual_;
-  CheckFrame numbers_;
+  CheckNumbers numbers_;
   std::optional<FrameBefore> before_;
 };
 

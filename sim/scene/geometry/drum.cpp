@@ -37,6 +37,7 @@ Boundaries ring_of_beads(const Scene& scene)
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(beads);
     add_bead(all, scene, centre_of(scene) + ring * Vec2(std::sin(angle), -std::cos(angle)), k);
   }
+  add_walls_along_z(all, scene);
   return all;
 }
 

@@ -44,7 +44,8 @@ auto of_solver(T SolverSettings::*member)
   };
 }
 
-/// A key that only scenes of discs, or only scenes of spheres, have in their text.
+/// Value of a key that applies only to discs, or only to spheres; in other scenes its text is
+/// empty.
 KeyValue of_dimension(int dimension, KeyValue value)
 {
   value.text = [dimension, text = value.text](const Scene& scene) {
@@ -81,11 +82,11 @@ std::vector<SceneKey> bed_keys()
     {"spread", "0.08", number(&Scene::spread, 0, 0.9), bed, yes,
      "(d_max - d_min)/d of the diameters of a species, which are uniformly distributed"},
     {"density", "1", number(&Scene::density, 1e-9, 1e12), bed, yes,
-     "density of small grains and boundary grains, kg/m^2"},
+     "density of small grains and boundary grains, kg/m^2 (spheres: kg/m^3)"},
     {"density-ratio", "1", number(&Scene::density_ratio, 1e-3, 1e3), bed, yes,
      "density of large grains over density of small grains"},
     {"phi-large", "0.3", number(&Scene::phi_large, 0, 1), bed, yes,
-     "area fraction of large grains among all mobile grains"},
+     "share of large grains in the area (spheres: volume) of all mobile grains"},
     {"large-grains", "", whole_number(&Scene::large_grains, 0, most), bed, no,
      "number of large grains, instead of phi-large"},
     {"initial", "large-below", choice(&Scene::initial, Words<Scene::Initial>{
@@ -104,7 +105,7 @@ std::vector<SceneKey> bed_keys()
      "width of the cell along z, in three dimensions"},
     {"sides", "periodic", in_space(choice(&Scene::sides, Words<Scene::Lateral>{
          {"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}})), bed, no,
-     "sides of the cell along z, in three dimensions"},
+     "sides of the cell along z, of spheres only"},
   };
 }
 
@@ -138,7 +139,7 @@ std::vector<SceneKey> flow_keys()
   };
 }
 
-std::vector<SceneKey> boundary_keys()
+std::vector<SceneKey> base_keys()
 {
   using enum KeyRole;
   using enum InParameters;
@@ -148,8 +149,8 @@ std::vector<SceneKey> boundary_keys()
   return {
     {"base", "grains", choice(&Scene::base, Words<Base>{
          {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
-     "base under the bed: grains (a row of fixed grains, by default touching large ones) or wall "
-     "(straight)"},
+     "base under the bed: grains (fixed grains; of discs one row, by default touching large ones; "
+     "of spheres interlocked lines of large ones) or wall (flat)"},
     {"base-diameter", "1dL", in_plane(length(&Scene::base_diameter, "0.1dS", "10dL")), bed, yes,
      "mean diameter of the grains in a bed's base"},
     {"base-diameter-spread", "0", in_plane(number(&Scene::base_diameter_spread, 0, 1)), bed, yes,
@@ -164,26 +165,37 @@ std::vector<SceneKey> boundary_keys()
      "(max - min)/mean of the distances between centres in a bed's base, uniform"},
     {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
          {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
-     "sides of the cell along x"},
+     "ends of the cell along x"},
     {"origin", "top", choice(&Scene::origin, Words<Origin>{
          {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
      "place of y = 0: top of the highest base grain, or half a base-diameter below (centre)"},
+  };
+}
+
+std::vector<SceneKey> geometry_keys()
+{
+  using enum KeyRole;
+  using enum InParameters;
+  return {
     {"drum-diameter", "100dS", length(&Scene::drum_diameter, "1dS", "1e6dL"), bed, no,
      "inner diameter of a drum; at least 4dL"},
     {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,
      "rotation rate of a drum, rad/s, counter-clockwise"},
     {"fill", "0.4", number(&Scene::fill, 0.01, 0.5), bed, no,
-     "fraction of a drum's area that the settled bed covers"},
+     "part of a drum's cross-section that the settled bed covers"},
     {"plate-speed", "1", number(&Scene::plate_speed, -1e6, 1e6), flow, no,
      "velocity of a shear cell's upper plate along x, m/s"},
     {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
-     "pressure of a shear cell's plate on the grains, N/m"},
+     "pressure of a shear cell's plate on the grains, N/m (spheres: Pa)"},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
      "mass of a shear cell's plate, kg (default: mass of its grains)"},
     {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12m"), bed, no,
      "width of a column before its gate opens; at least 1dL"},
     {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12m"), bed, no,
-     "width of a hopper's outlet"},
+     "width of a hopper's outlet; diameter of a round one"},
+    {"outlet-shape", "slot", in_space(choice(&Scene::outlet_shape, Words<Scene::Outlet>{
+         {"slot", Scene::Outlet::slot}, {"round", Scene::Outlet::round}})), bed, no,
+     "outlet of a hopper of spheres: a slot along z, or a round hole"},
     {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12m"), flow, no,
      "amplitude of the vertical shaking of a bed's base"},
     {"shake-frequency", "0", number(&Scene::shake_frequency, 0, 1e9), flow, no,
@@ -209,8 +221,8 @@ std::vector<SceneKey> run_keys()
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
      "number of threads; 0 uses all cores. Only wide scenes gain. Results do not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
-     "sets step, tolerance, min-sweeps, max-sweeps and precision unless they are given. If masses of "
-     "grains differ much: up to 16 times as many sweeps, and a tolerance smaller by the same "
+     "sets step, tolerance, min-sweeps, max-sweeps and precision unless they are given. If masses "
+     "of grains differ much: up to 16 times as many sweeps, and a tolerance smaller by the same "
      "factor"},
     {"step", "", number(&Scene::step, 1e-15, 1e12, "SECONDS"), flow, yes,
      set_by_accuracy("time step, s, at most 0.05 sqrt(d_S/g)")},
@@ -249,7 +261,7 @@ const std::vector<SceneKey>& scene_keys()
 {
   static const auto keys = [] {
     std::vector<SceneKey> all;
-    for (const auto& group : {bed_keys(), flow_keys(), boundary_keys(), run_keys()})
+    for (const auto& group : {bed_keys(), flow_keys(), base_keys(), geometry_keys(), run_keys()})
       all.insert(all.end(), group.begin(), group.end());
     return all;
   }();

@@ -68,6 +68,10 @@ boost::program_options::options_description scene_options();
 /// accuracy, the mass of a plate). Throws SceneError, which names the wrong key.
 Scene resolve_scene(const boost::program_options::variables_map& values);
 
+/// Contact law of scenes that do not name one: the speculative law would change the energy of a gas
+/// whose restitution is above 0.9.
+ContactLaw usual_law(double restitution);
+
 /// Values of other keys that a word of the key `accuracy` sets, unless the user gives them.
 struct Accuracy {
   const char* name;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 namespace grseg {
 namespace {
@@ -55,10 +54,9 @@ void read_keys(const po::variables_map& values, Scene& scene)
 double mass_of_plate(const Scene& scene)
 {
   if (scene.dimension == 3) {
-    Boundaries plate;
-    for (const double x : row_of_beads(scene)) add_bead(plate, scene, {x, 0});
-    return static_cast<double>(plate.position.size()) * scene.density *
-           nominal_volume(scene, scene.large_diameter);
+    const auto lines = static_cast<double>(row_of_beads(scene).size());
+    const auto beads = static_cast<double>(beads_in_line(scene, 0) + beads_in_line(scene, 1));
+    return lines / 2 * beads * scene.density * nominal_volume(scene, scene.large_diameter);
   }
   const double beads = std::floor(scene.length / scene.large_diameter + 1e-9);
   return beads * scene.density * std::numbers::pi / 4 * scene.large_diameter * scene.large_diameter;
@@ -181,17 +179,23 @@ void check_turning(const Scene& scene)
                       turn, largest_turn));
 }
 
-/// Spheres have a base of interlocked lines of touching large grains, or a wall.
-void check_base_of_spheres(const Scene& scene, const KeyGiven& given)
+/// Refuses keys of spheres for discs, and keys of discs for spheres: their text is empty.
+void check_dimension(const Scene& scene, const KeyGiven& given)
 {
+  const std::string dimension = "dimension";
   for (const auto& key : scene_keys())
-    require(std::string_view(key.name).substr(0, 5) != "base-" || !given(key.name), key.name,
-            fmt::format("{} shapes a base of discs; leave it out in three dimensions", key.name));
-  require(scene.width >= 4 * scene.large_diameter, "width",
-          "width is below 4 d_L: grains would meet their own images; choose a wider cell");
+    require(key.name == dimension || !given(key.name) || !key.value.text(scene).empty(), key.name,
+            fmt::format("{} is a key of {} only; {}leave it out", key.name,
+                        scene.dimension == 2 ? "spheres" : "discs",
+                        scene.dimension == 2 ? "set dimension = 3, or " : ""));
 }
 
 }  // namespace
+
+ContactLaw usual_law(double restitution)
+{
+  return restitution > most_speculative_restitution ? ContactLaw::centred : ContactLaw::speculative;
+}
 
 Scene resolve_scene(const po::variables_map& values)
 {
@@ -200,14 +204,14 @@ Scene resolve_scene(const po::variables_map& values)
   };
   Scene scene;
   read_keys(values, scene);
+  check_dimension(scene, given);
   if (scene.geometry->resolve) scene.geometry->resolve(scene, given);
   if (scene.dimension == 2)
     resolve_base_row(scene, given);
   else
-    check_base_of_spheres(scene, given);
+    check_base_of_spheres(scene);
   if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
-  if (!given("contact-law") && scene.restitution > most_speculative_restitution)
-    scene.law = ContactLaw::centred;
+  if (!given("contact-law")) scene.law = usual_law(scene.restitution);
   check_shaking(scene);
   resolve_accuracy(scene, given);
   check_frames(scene);

@@ -126,7 +126,7 @@ Parameters to_parameters(const Scene& scene)
 {
   Parameters parameters;
   for (const auto& key : scene_keys()) {
-    if (key.stored == InParameters::no) continue;
+    if (key.stored == InParameters::no || key.value.text(scene).empty()) continue;
     std::string name = key.name;
     std::replace(name.begin(), name.end(), '-', '_');
     if (key.value.number)

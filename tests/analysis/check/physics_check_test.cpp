@@ -279,6 +279,34 @@ TEST_F(CheckedColumn, FailsTheXDriftIfGrainsMoveWithoutVelocity)
   EXPECT_EQ(failed(column), Names{"x_drift"});
 }
 
+/// Deviation of `check` in these lines; NaN if it is not there.
+double measured(const char* check, const std::vector<CheckLine>& lines)
+{
+  for (const auto& line : lines)
+    if (line.quantity == check) return line.measured;
+  return NAN;
+}
+
+// A step of a run ends half a step after its positions, with a velocity that is larger by a h/2.
+TEST_F(CheckedColumn, ThatAcceleratesMovesAsFarAsItsVelocitySays)
+{
+  const double a = 9;
+  ASSERT_GT(a * h / 2, 1e-3 * std::sqrt(weight * small)) << "the half step counts";
+  EXPECT_NEAR(measured("x_drift", lines_of(Column({a, -weight}, a))), 0, 1e-12);
+  const Vec3 along = a * Vec3::UnitX();
+  EXPECT_NEAR(measured("x_drift", lines_of(ColumnOf<3>(along - weight * Vec3::UnitY(), a))), 0,
+              1e-12);
+}
+
+TEST_F(CheckedColumn, OfAnotherProgramHasPositionsAndVelocitiesOfOneInstant)
+{
+  Column column({9, -weight}, 9);
+  column.description.parameters.texts["import_format"] = "lammps";
+  for (auto& frame : column.frames)
+    for (std::size_t g = 1; g <= discs; ++g) frame.velocity[g].x() = 9 * frame.time;
+  EXPECT_NEAR(measured("x_drift", lines_of(column)), 0, 1e-12);
+}
+
 TEST_F(CheckedColumn, FailsTheEnergyDefectIfEnergyIsMissingUnlessNothingMoves)
 {
   Column column({3, -weight}, 0.5);

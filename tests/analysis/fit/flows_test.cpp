@@ -62,6 +62,30 @@ TEST(Flows, AreToldApartByAllThatTablesRecordOfTheFlow)
   EXPECT_EQ(flows[1].name, "Phi_L = 0.30, gravity_x = 4.3");
 }
 
+// Gravity of 9.8 m/s^2 that is inclined by 21 and 26 degrees.
+TEST(Flows, AreToldApartByTheirSlopeIfGravityTurnsInTheirPlane)
+{
+  const auto inclined = [](double slope, const std::string& across) {
+    const double angle = slope * std::acos(-1.0) / 180;
+    auto table = run_of(0.3 + 1e-5 * slope, std::to_string(9.8 * std::sin(angle)));
+    for (auto& [key, value] : table.header)
+      if (key == "gravity_y") value = std::to_string(-9.8 * std::cos(angle));
+    table.header.emplace_back("gravity_z", across);
+    return table;
+  };
+  const auto flows_of = [](const std::vector<Table>& tables) {
+    auto read = read_all(tables);
+    return find_flows(read, "auto");
+  };
+  const auto flows = flows_of({inclined(21, "0"), inclined(26, "0")});
+  ASSERT_EQ(flows.size(), 2u);
+  EXPECT_EQ(flows[0].name, "Phi_L = 0.30, slope = 21 degrees");
+  ASSERT_EQ(flows[1].settings.size(), 1u);
+  EXPECT_EQ(flows[1].settings[0].first, "slope[degree]");
+  EXPECT_NEAR(std::stod(flows[1].settings[0].second), 26, 1e-5);
+  EXPECT_EQ(flows_of({inclined(21, "0"), inclined(26, "1")})[0].settings.size(), 3u);
+}
+
 // For spheres the cell also has a width. A value that only one of two tables records also
 // distinguishes them.
 TEST(Flows, AreToldApartByTheirMaterialAndTheWidthOfTheCell)

@@ -153,6 +153,28 @@ TEST(PartitionScan, TheIntervalOfTheZeroIsThatOfBOverItsSlope)
       0.01);
 }
 
+// B(p) is the same in all windows of three runs, of which one has four times as many frames.
+TEST(PartitionScan, RunsThatDifferInWeightAloneHaveASlopeWithoutError)
+{
+  std::vector<Table> tables;
+  for (const int frames : {10, 40, 20}) {
+    auto rows = neutral_rows(0, 2, 10);
+    for (auto& row : rows) {
+      row.frames = frames;
+      // Another pressure makes it another run.
+      for (const std::size_t species : {0, 1})
+        row.sums.of(OwnSum::inside, species) *= 1 + 0.01 * frames;
+      for (const auto part : {PairSum::whole, PairSum::by_size, PairSum::up_to_contact})
+        row.sums.of(part, 0) *= 1 + 0.01 * frames;
+    }
+    tables.push_back(stress_table(rows));
+  }
+  const auto data = read(tables);
+  const auto line = line_over_share(data, {}, Bootstrap(data.runs, 200, 1), Population::runs);
+  const auto slope = line.dB_dp.estimate();
+  EXPECT_NEAR(slope.high - slope.low, 0, 1e-9 * line.dB_dp.value);
+}
+
 /// 48 windows of seven layers of neutral contacts; each type of contact scatters by two per cent.
 FitData scattered_neutral_data(synthetic::Ar1& noise)
 {

@@ -51,6 +51,15 @@ TEST(HeightRange, InsideLeavesFourSmallDiametersAtTheBaseAndUnderTheSurface)
   EXPECT_FALSE(parse_heights("inside", units, {}).holds(0, 0.02));
 }
 
+// Two layers below the bed hold a few grains that fell through: 0.1 of 0.8 each.
+TEST(HeightRange, InsideBeginsAboveTheBaseAndNotAtTheBottomOfTheCell)
+{
+  std::vector<LayerSolid> layers;
+  for (int k = 0; k < 12; ++k) layers.push_back({0.02 * k, 0.02 * (k + 1), 10, k < 2 ? 0.08 : 0.8});
+  const auto range = parse_heights("inside", units, layers);
+  EXPECT_NEAR(range.lowest, 0.04 + 0.02, 1e-12);
+}
+
 // In floating point, 35 * 0.02 exceeds 0.7 in the last digit.
 TEST(HeightRange, HoldsLayersThatReachItsEndsExactlyAndTheWholeBed)
 {

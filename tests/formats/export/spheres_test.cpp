@@ -121,7 +121,7 @@ TEST_F(ExportOfSpheres, SaysHowADumpBecomesARunAgain)
   const auto writer = lammps_writer(run, view_cell(run, 0), at("run.dump"), false);
   write(*writer, run);
   const auto command = writer->import_command();
-  EXPECT_NE(command.find(" --gravity 3.8,-9,0.2 --grains-are spheres --dimension 3 "),
+  EXPECT_NE(command.find(" --gravity 3.8,-9,0.2 --grains-are spheres --dimension 3 --axes xy "),
             std::string::npos);
   EXPECT_NE(command.find(" --species fine=1:0.005 --species middle=2:0.008 --species "
                          "coarse=3:0.012 --boundary 4 "),

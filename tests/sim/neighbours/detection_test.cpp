@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sim/neighbours/detection.hpp"
-
 #include "sim/contact/contact_law-inl.hpp"
+#include "sim/neighbours/impulse_memory.hpp"
 #include "sim/solver/sweep.hpp"
 #include "sim/step/simulation.hpp"
 #include "tests/hard_cases/case.hpp"

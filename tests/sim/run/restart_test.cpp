@@ -252,6 +252,19 @@ TEST(Restart, TheCommandLineWinsOverTheCheckpointAndTheRestStays)
   EXPECT_EQ(to_text(with_words(checkpoint, {})), checkpoint.scene);
 }
 
+// The speculative law would change the energy of an elastic gas.
+TEST(Restart, AGivenRestitutionBringsItsUsualLawUnlessAnotherLawWasChosen)
+{
+  Checkpoint<2> checkpoint;
+  checkpoint.scene = to_text(scene({"--restitution", "0.3"}));
+  EXPECT_EQ(with_words(checkpoint, {"--restitution", "1"}).law, ContactLaw::centred);
+  EXPECT_EQ(with_words(checkpoint, {"--slope", "0"}).law, ContactLaw::speculative);
+  const std::vector<std::string> chosen{"--restitution", "1", "--contact-law", "touch"};
+  EXPECT_EQ(with_words(checkpoint, chosen).law, ContactLaw::touch);
+  checkpoint.scene = to_text(scene({"--restitution", "0.3", "--contact-law", "touch"}));
+  EXPECT_EQ(with_words(checkpoint, {"--restitution", "1"}).law, ContactLaw::touch);
+}
+
 TEST(Restart, AGivenAccuracyReplacesStepToleranceAndSweeps)
 {
   Checkpoint<2> checkpoint;

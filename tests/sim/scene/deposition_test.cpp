@@ -217,8 +217,8 @@ TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
   } catch (const UsageError& error) {
     EXPECT_STREQ(
         error.what(),
-        "the falling grains do not fit: the column is too narrow for a grain at a height of "
-        "0 m; choose a wider one or fewer grains");
+        "the grains do not fit before they fall: the column is too narrow for another one at a "
+        "height of 0 m; choose a smaller depth, or a wider column");
   }
 }
 
@@ -227,6 +227,32 @@ TEST(Deposition, WithoutGrainsIsRefused)
   EXPECT_THROW(deposit<2>(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
                                       "--length", "4dL", "--base", "wall"})),
                UsageError);
+}
+
+// With y = 0 at the centres of the beads, d_L/2 = 1 d_S of the depth is in the base. Numbers of
+// grains may differ as much as two depths, by 2 % each.
+TEST(Deposition, TheDepthIsCountedFromYZeroAndTheBedBeginsAtTheTopOfTheBase)
+{
+  const auto grains = [](const char* depth, const char* origin) {
+    const auto simulation =
+        deposit<2>(scene_from({"--depth", depth, "--length", "20dL", "--accuracy", "draft",
+                               "--phi-large", "0", "--origin", origin}));
+    return static_cast<double>(simulation.world().grains.size());
+  };
+  EXPECT_NEAR(grains("13dS", "centre") / grains("12dS", "top"), 1, 0.04);
+}
+
+// Small grains on large beads lie in the pockets, on average below y = 0.
+TEST(Deposition, OfABedLowerThanItsPocketsIsRefusedOrMade)
+{
+  const auto scene = scene_from({"--depth", "1dS", "--size-ratio", "10", "--phi-large", "0",
+                                 "--length", "4dL", "--accuracy", "draft"});
+  try {
+    const auto height = bed_height(deposit<2>(scene));
+    EXPECT_NEAR(height, scene.depth, 0.02 * scene.depth);
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("only a few grains deep"), std::string::npos);
+  }
 }
 
 TEST(Deposition, AnotherSeedMakesAnotherBedAndTheSameSeedTheSame)

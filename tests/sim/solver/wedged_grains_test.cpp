@@ -66,14 +66,18 @@ TEST(WedgedGrains, ADiscThatFrictionLocksStopsInOneStepWithForcesThatItsMomentum
   }
 }
 
+// Of the velocity along the gap a sweep leaves cos^2(2 a), a the angle of the line of centres: 0.67
+// and, over the wide gap, 0.95. Eight sweeps would leave 0.65 of it there.
 TEST(WedgedGrains, ALockedDiscStopsWithinTheSweepsOfAFlow)
 {
-  OverAGap scene(1.43);
-  scene.world.solver = {.tolerance = 0.5, .max_sweeps = 8, .min_sweeps = 8};
-  Simulation<2> simulation(scene.world, positions_of(scene.discs));
-  simulation.set_velocity(2, {0, -1});
-  simulation.advance();
-  EXPECT_NEAR(simulation.velocity(2).norm(), 0, 1e-3);
+  for (const double half : {1.43, 1.49}) {
+    OverAGap scene(half);
+    scene.world.solver = {.tolerance = 0.5, .max_sweeps = 8, .min_sweeps = 8};
+    Simulation<2> simulation(scene.world, positions_of(scene.discs));
+    simulation.set_velocity(2, {0, -1});
+    simulation.advance();
+    EXPECT_NEAR(simulation.velocity(2).norm(), 0, 1e-3) << half;
+  }
 }
 
 TEST(WedgedGrains, BetweenBodiesThatPartADiscBearsNothing)

@@ -250,18 +250,19 @@ double sweeps(Simulation<2>& flow, double duration)
 }
 
 // An impact lowers the first guesses. If guesses could not recover afterwards, every step would be
-// treated as an impact: the flow would never have guesses again, and need twice the sweeps.
+// treated as an impact: the flow would never have guesses again, and need twice the sweeps. With
+// guesses it needs 24 (docs/studies/performance.md).
 TEST(Simulation, AnImpactOnAFlowIsOverAfterIt)
 {
-  auto flow = small_chute::bed(small_chute::paper_scene(
-      {"--depth", "60dS", "--length", "8dL", "--slope", "26", "--phi-large", "0.45"}));
-  run(flow, 3);
-  const double before = sweeps(flow, 0.5);
+  auto flow = small_chute::bed(
+      small_chute::paper_scene({"--depth", "60dS", "--length", "8dL", "--slope", "26",
+                                "--phi-large", "0.45", "--tolerance", "0.05"}));
+  run(flow, 3);  // the start of the flow is an impact, too
+  EXPECT_LT(sweeps(flow, 0.5), 30);
   for (std::size_t g = 0; g < flow.world().grains.size(); ++g)
     if (!flow.world().grains.fixed[g]) flow.set_velocity(g, flow.velocity(g) - Vec2(0, 0.5));
   run(flow, 0.5);
-  // Mean sweeps of windows of half a second differ by 0.02.
-  EXPECT_LT(sweeps(flow, 0.5), 1.1 * before);
+  EXPECT_LT(sweeps(flow, 0.5), 30);
 }
 
 }  // namespace

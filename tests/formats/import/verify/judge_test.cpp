@@ -31,9 +31,9 @@ CheckContext context_of(bool has_force = true)
 }
 
 /// A frame from which gravity follows with a standard error.
-CheckFrame frame_with(const Vec3& gravity, double error)
+CheckNumbers frame_with(const Vec3& gravity, double error)
 {
-  CheckFrame frame;
+  CheckNumbers frame;
   frame.medians = 1;
   frame.acceleration = 100;
   frame.balance_grains = 100;
@@ -243,9 +243,9 @@ TEST(JudgeMasses, ForceOverAccelerationIsTheMass)
 
 Finding time_of(const SlopeSums& motion)
 {
-  CheckFrame frame;
+  CheckNumbers frame;
   frame.motion = motion;
-  return judge_time({CheckFrame(), frame}, context_of());
+  return judge_time({CheckNumbers(), frame}, context_of());
 }
 
 TEST(JudgeTime, AStepTenTimesTooLongIsRefusedWithTheStepThatFits)
@@ -262,7 +262,7 @@ TEST(JudgeTime, APackingAtRestProvesNothing)
 {
   EXPECT_EQ(time_of({}).verdict, Verdict::undecided);
   EXPECT_EQ(time_of(line(0.1, 3)).verdict, Verdict::undecided) << "noise";
-  EXPECT_EQ(judge_time({CheckFrame()}, context_of()).verdict, Verdict::undecided);
+  EXPECT_EQ(judge_time({CheckNumbers()}, context_of()).verdict, Verdict::undecided);
 }
 
 TEST(JudgeSizes, SmallAndLargeExchangedAreRefusedWithTheExchange)

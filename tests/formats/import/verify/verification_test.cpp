@@ -173,6 +173,63 @@ TEST(Verification, NeighboursThatShareSpinAndMotionAreOneBody)
   EXPECT_EQ(scene.complaint(), "no complaint") << "they pass each other";
 }
 
+/// Discs 1 and 2 as parts of a plug that turns at the rate w about (0, 2), as in a drum. Walls push them
+/// on their way, without friction.
+Scene plug(double w)
+{
+  auto scene = overlapping_discs();
+  auto& frame = scene.frame;
+  frame.angular_velocity = {{0, 0, w}, {0, 0, w}, {0, 0, w}};
+  frame.contacts = {};
+  for (const std::int32_t g : {0, 1}) {
+    const auto k = static_cast<std::size_t>(g);
+    const double distance = frame.position[k].x(), mass = scene.grains.mass[k];
+    frame.velocity[k] = {0, w * distance, 0};
+    frame.force[k] = {-mass * w * w * distance, 0, 0};
+    frame.contacts.i.push_back(g);
+    frame.contacts.j.push_back(-1 - g);
+    frame.contacts.force.push_back(frame.force[k] - mass * scene.gravity);
+    frame.contacts.branch.push_back(scene.grains.radius[k] *
+                                    frame.contacts.force.back().normalized());
+    frame.contacts.gap.push_back(0);
+  }
+  return scene;
+}
+
+std::optional<Complaint> complaint_about_rigid_grains(const Scene& scene)
+{
+  OutputAccuracy accuracy{1e-10, false, 0, 0.5};
+  accuracy.lists_all = false;
+  return Verification(scene.grains, scene.box, scene.gravity, accuracy).check(scene.frame);
+}
+
+TEST(Verification, APlugThatTurnsWithADrumIsNoRigidBodyWhereForcesTurnIt)
+{
+  auto scene = plug(3);
+  EXPECT_FALSE(complaint_about_rigid_grains(scene));
+  // A body of two discs carries the second disc by an inner force that the archive does not have.
+  scene.frame.contacts.force[1] -= Vec3(0, 6, 0);
+  scene.frame.force[1] -= Vec3(0, 6, 0);
+  const auto complaint = complaint_about_rigid_grains(scene);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(mentions(complaint->sentence, "rigid bodies of several grains are not supported"));
+  EXPECT_TRUE(mentions(complaint->sentence, "--accept-residual completeness=1 accepts it"));
+}
+
+TEST(Verification, APlugThatTurnsIsARigidBodyWhereATorqueTurnsOneOfItsGrainsOnly)
+{
+  auto scene = plug(3);
+  auto& contacts = scene.frame.contacts;
+  for (const int side : {1, -1}) {
+    contacts.i.push_back(1);
+    contacts.j.push_back(-4 - side);
+    contacts.force.push_back(side * Vec3(4, 10, 0));
+    contacts.branch.push_back(side * Vec3(0, scene.grains.radius[1], 0));
+    contacts.gap.push_back(0);
+  }
+  EXPECT_TRUE(complaint_about_rigid_grains(scene));
+}
+
 TEST(Verification, DampingMayPullALittle)
 {
   Scene scene;

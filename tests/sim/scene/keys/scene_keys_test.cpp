@@ -159,6 +159,14 @@ TEST(Scene, NearlyElasticGrainsReboundInTheStepInWhichTheyMeet)
             ContactLaw::speculative);
 }
 
+TEST(Scene, KeysOfSpheresAreRefusedForDiscsAndKeysOfDiscsForSpheres)
+{
+  EXPECT_EQ(refused_key({"--sides", "walls"}), "sides");
+  EXPECT_EQ(refused_key({"--dimension", "2", "--width", "6dL"}), "width");
+  EXPECT_EQ(refused_key({"--dimension", "3", "--width", "6dL"}), "none");
+  EXPECT_EQ(refused_key({"--dimension", "3", "--base-spacing", "1dL"}), "base-spacing");
+}
+
 TEST(Scene, BaseAndOrderOfTheDepositionAreStored)
 {
   const auto parameters = to_parameters(scene_from(

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "formats/core/frame.hpp"
+
+#include <cstddef>
+
+namespace grseg {
+
+/// Makes the grains absent that have left the bed through its base, as out of a hopper, and removes
+/// their contacts. Returns the number of these grains. The centre of such a grain lies more than
+/// the largest diameter of all mobile grains below y = 0, and below the centres of all boundary
+/// grains. The grains of a rough base dip less far below y = 0, or lie above a boundary grain of a
+/// base that is shaken.
+template <int D>
+std::size_t remove_grains_below(const Grains& grains, Frame<D>& frame);
+
+}  // namespace grseg
