@@ -174,6 +174,33 @@ Simulation<3> pyramid_of_four(double friction)
   return {world, position};
 }
 
+TEST(SphereOnASphere, LeavesItWhereTheCosineIsTenSeventeenthsOfThatAtTheStart)
+{
+  // Rolling without slip, N = m g (17 cos - 10 cos_0)/7. Friction is a vector in space, and the
+  // tangent plane turns by 50 degrees under it.
+  Case leaves("S15", "cosine of the angle from the vertical where a rolling sphere leaves");
+  auto world = world_of({r, 4 * r});
+  world.grains.fixed[1] = 1;
+  world.material = {1000, 0};
+  world.law = law_parameters(ContactLaw::speculative, 0.75, h, g, 2 * r);
+  world.gravity = {0, -g, 0};
+  const double start = 0.2, apart = 5 * r;
+  const Vec3 centre(50, 50, 50), down(0.6, 0, 0.8);
+  const auto at = [&](double angle) -> Vec3 {
+    return centre + apart * (std::cos(angle) * Vec3::UnitY() + std::sin(angle) * down);
+  };
+  Simulation<3> simulation(world, {at(start), centre});
+  double cosine = 1, speed = 0;
+  while (cosine > 0) {
+    const bool bears = simulation.advance().force_bearing > 0;
+    const double now = (simulation.position(0) - centre).normalized().y();
+    if (!bears && now < cosine - 0.01) break;
+    if (bears) cosine = now;
+    speed = simulation.velocity(0).norm();
+  }
+  leaves.near(cosine, 10 * std::cos(start) / 17, 2 * speed * h / apart);
+}
+
 TEST(PyramidOfFourSpheres, StandsIfFrictionIsAtLeastTheTangentOfHalfTheAngle)
 {
   // The line of centres leans by alpha from the vertical, sin alpha = 1/sqrt(3). A sphere below is
@@ -336,6 +363,31 @@ TEST(FallingSpheres, EveryPairThatOverlapsIsAContact)
   EXPECT_GT(heap.pair_list_renewals(), 10u);
 }
 
+/// A sphere (the last grain) on three frozen ones whose centres are 2 r `apart` from each other.
+struct Pit {
+  double apart, mu;
+  double sine = apart / std::sqrt(3.0);  // of the contacts' angle from the vertical
+  double cosine = std::sqrt(1 - sine * sine);
+  Vec3 top{50, 50 + 2 * r* cosine, 50};
+
+  Simulation<3> simulation(Precision precision) const
+  {
+    auto world = world_of({r, r, r, r});
+    for (std::size_t k = 0; k < 3; ++k) world.grains.fixed[k] = 1;
+    world.material = {mu, 0};
+    world.gravity = {0, -g, 0};
+    world.solver.precision = precision;
+    if (precision == Precision::mixed) world.solver.tolerance = 1e-5;
+    std::vector<Vec3> position;
+    for (int k = 0; k < 3; ++k) {
+      const double angle = 2 * std::numbers::pi * k / 3, ring = 2 * r * sine;
+      position.emplace_back(50 + ring * std::cos(angle), 50, 50 + ring * std::sin(angle));
+    }
+    position.push_back(top);
+    return {world, position};
+  }
+};
+
 TEST(SphereInAPit, RestsWithForcesThatStaticsAllows)
 {
   // Three frozen spheres carry the weight: sum of N cos alpha + T sin alpha = m g, |T| <= mu N, where
@@ -343,30 +395,35 @@ TEST(SphereInAPit, RestsWithForcesThatStaticsAllows)
   Case rests("S12", "way in 1 s, m"), forces("S12", "sum of normal forces over m g");
   for (const double mu : {0.1, 0.5})
     for (const double apart : {1.1, 1.6}) {
-      auto world = world_of({r, r, r, r});
-      for (int k = 0; k < 3; ++k) world.grains.fixed[static_cast<std::size_t>(k)] = 1;
-      world.material = {mu, 0};
-      world.gravity = {0, -g, 0};
-      const double ring = 2 * r * apart / std::sqrt(3.0),
-                   height = std::sqrt(4 * r * r - ring * ring);
-      std::vector<Vec3> position;
-      for (int k = 0; k < 3; ++k) {
-        const double angle = 2 * std::numbers::pi * k / 3;
-        position.emplace_back(50 + ring * std::cos(angle), 50, 50 + ring * std::sin(angle));
-      }
-      position.emplace_back(50, 50 + height, 50);
-      Simulation<3> pit(world, position);
+      const Pit scene{apart, mu};
+      auto pit = scene.simulation(Precision::doubles);
       Frame<3> frame;
       for (int k = 0; k < 1000; ++k) pit.advance(frame);
-      rests.near((pit.position(3) - position[3]).norm(), 0, 1e-9);
+      rests.near((pit.position(3) - scene.top).norm(), 0, 1e-9);
       double normal = 0;
       for (std::size_t c = 0; c < frame.contacts.size(); ++c)
         normal += frame.contacts.force[c].dot(frame.contacts.branch[c].normalized());
-      const double cosine = height / (2 * r), sine = ring / (2 * r);
-      normal /= world.grains.mass[3] * g;
-      const double most = cosine > mu * sine ? 1 / (cosine - mu * sine) : 1e3;
-      forces.between(normal, 1 / (cosine + mu * sine) * (1 - 1e-9), most * (1 + 1e-9));
+      normal /= pit.world().grains.mass[3] * g;
+      const double least = scene.cosine - mu * scene.sine, most = least > 0 ? 1 / least : 1e3;
+      forces.between(normal, 1 / (scene.cosine + mu * scene.sine) * (1 - 1e-9), most * (1 + 1e-9));
     }
+}
+
+TEST(SphereInAPit, ThatSpinsSlidesAlikeInBothPrecisions)
+{
+  // Friction of one contact changes the normal forces of the others. Single precision leaves 1e-5 of
+  // the load's velocity, g h, in each of the 50 steps.
+  Case alike("S12", "difference of velocities of the surface between the precisions over g h");
+  const Pit scene{1.1, 0.1};
+  auto exact = scene.simulation(Precision::doubles), single = scene.simulation(Precision::mixed);
+  for (auto* pit : {&exact, &single}) {
+    pit->set_velocity(3, Vec3::Zero(), Vec3(3, 20, -10));
+    for (int k = 0; k < 50; ++k) pit->advance();
+  }
+  EXPECT_GT(exact.angular_velocity(3).norm(), 5);
+  const Vec3 turn = exact.angular_velocity(3) - single.angular_velocity(3);
+  alike.at_most(((exact.velocity(3) - single.velocity(3)).norm() + r * turn.norm()) / (g * h),
+                50 * 1e-5 * 10);
 }
 
 }  // namespace
