@@ -66,8 +66,8 @@ TEST(WedgedGrains, ADiscThatFrictionLocksStopsInOneStepWithForcesThatItsMomentum
   }
 }
 
-// Of the velocity along the gap a sweep leaves cos^2(2 a), a the angle of the line of centres: 0.67
-// and, over the wide gap, 0.95. Eight sweeps would leave 0.65 of it there.
+// A sweep alone reduces the disc's velocity slowly. The flatter the lines of centres, the slower: over
+// the wider gap, a tenth of the velocity is left after eight sweeps.
 TEST(WedgedGrains, ALockedDiscStopsWithinTheSweepsOfAFlow)
 {
   for (const double half : {1.43, 1.49}) {
