@@ -49,6 +49,21 @@ inline std::vector<TableRow> neutral_rows(double noise, double r = 2, int window
   return rows;
 }
 
+/// Table of a run with two windows and one layer of this composition.
+inline Table run_of(double phi_large, const std::string& gravity = "3.83", double scatter = 0)
+{
+  auto table = stress_table({{0, 1, 10, neutral_sums(phi_large, 2 + scatter)},
+                             {1, 2, 10, neutral_sums(phi_large, 2 - scatter / 2)}});
+  table.header.emplace_back("gravity_x", gravity);
+  table.header.emplace_back("gravity_y", "-9.02");
+  return table;
+}
+
+inline std::vector<FitTable> read_all(const std::vector<Table>& tables)
+{
+  return read_fit_tables(tables, Quantity::contact, {{}});
+}
+
 inline FitData read(const std::vector<Table>& tables, const FitFilters& filters = {},
                     Quantity quantity = Quantity::contact)
 {
