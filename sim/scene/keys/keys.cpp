@@ -98,14 +98,14 @@ std::vector<SceneKey> bed_keys()
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
      "height of the deposited bed, within 2 %"},
     {"length", "35dL", length(&Scene::length, "4dL", "1e6dL"), bed, no,
-     "length of the cell along x"},
+     "length of the cell along x; a drum has its diameter instead"},
     {"dimension", "2", in_space(choice(&Scene::dimension, Words<int>{{"2", 2}, {"3", 3}})), bed, no,
      "2: discs; 3: spheres, with densities in kg/m^3 and pressures in Pa"},
     {"width", "10dL", in_space(length(&Scene::width, "4dL", "1e6dL")), bed, no,
      "width of the cell along z, in three dimensions"},
     {"sides", "periodic", in_space(choice(&Scene::sides, Words<Scene::Lateral>{
          {"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}})), bed, no,
-     "sides of the cell along z, of spheres only"},
+     "walls at z = 0 and z = width, or a period (spheres only)"},
   };
 }
 
@@ -152,9 +152,9 @@ std::vector<SceneKey> base_keys()
      "base under the bed: grains (fixed grains; of discs one row, by default touching large ones; "
      "of spheres interlocked lines of large ones) or wall (flat)"},
     {"base-diameter", "1dL", in_plane(length(&Scene::base_diameter, "0.1dS", "10dL")), bed, yes,
-     "mean diameter of the grains in a bed's base"},
+     "mean diameter of the discs in a bed's base"},
     {"base-diameter-spread", "0", in_plane(number(&Scene::base_diameter_spread, 0, 1)), bed, yes,
-     "(d_max - d_min)/d of the diameters in a bed's base, uniform; tops stay at one height"},
+     "(d_max - d_min)/d of the discs in a bed's base, uniform; tops stay at one height"},
     {"base-height-spread", "0", in_plane(length(&Scene::base_height_spread, "0", "10dL")), bed, yes,
      "range of the tops of the grains in a bed's base: each is lowered by a random distance from 0 "
      "to this value"},
@@ -219,7 +219,7 @@ std::vector<SceneKey> run_keys()
     {"seed", "1", whole_number(&Scene::seed, 1, 4294967295), bed, yes,
      "seed of the random numbers"},
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
-     "number of threads; 0 uses all cores. Only wide scenes gain. Results do not depend on it"},
+     "number of threads; 0 uses all cores. Only scenes of 30,000 grains or more gain. Results do not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
      "sets step, tolerance, min-sweeps, max-sweeps and precision unless they are given. If masses "
      "of grains differ much: up to 16 times as many sweeps, and a tolerance smaller by the same "
