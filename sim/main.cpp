@@ -63,8 +63,8 @@ void check(const RunOptions& run, const po::variables_map& given)
 {
   if (run.checkpoint_every < 0)
     throw UsageError("--checkpoint-every must be a time in seconds, 0 or more");
-  if (run.estimate && !run.restart.empty())
-    throw UsageError("--estimate covers a whole run; leave out --restart");
+  if (run.estimate && (run.continues || !run.restart.empty()))
+    throw UsageError("--estimate covers a whole run; leave out --restart and --continue");
   if (run.continues && (run.checkpoint.empty() || !run.restart.empty()))
     throw UsageError("--continue needs --checkpoint FILE, and cannot be combined with --restart");
   if (run.restart.empty() && (given.count("perturb") > 0 || given.count("seed-perturbation") > 0))
@@ -74,12 +74,14 @@ void check(const RunOptions& run, const po::variables_map& given)
                                  run.perturbation.size, largest_perturbation));
 }
 
-/// True if `checkpoint` was written after the last step of `scene` and `output` is published.
-bool is_finished(const AnyCheckpoint& checkpoint, const Scene& scene, const std::string& output)
+/// True if `checkpoint`, of the scene `before`, was written after the last step of `scene`, which is
+/// the same flow, and `output` is published.
+bool is_finished(const AnyCheckpoint& checkpoint, const Scene& before, const Scene& scene,
+                 const std::string& output)
 {
   const auto steps_done = std::visit([](const auto& c) { return c.state.steps_done; }, checkpoint);
-  return steps_done >= scene.steps_in_all() && holds_something(output) &&
-         !holds_something(part_of(output));
+  return same_steps(before, scene) && steps_done >= scene.steps_in_all() &&
+         holds_something(output) && !holds_something(part_of(output));
 }
 
 void begin(const Scene& scene, const RunOptions& run)
@@ -131,7 +133,7 @@ int main(int argc, char** argv)
         [](const CheckpointHead& head) -> const auto& { return head.scene; }, checkpoint);
     const auto scene =
         inputs.empty() ? scene_of(text, run.restart, given) : resolve_scene(inputs[0], given);
-    if (run.continues && is_finished(checkpoint, scene, run.output)) {
+    if (run.continues && is_finished(checkpoint, scene_of(text, run.restart), scene, run.output)) {
       if (!run.quiet) fmt::print(stderr, "grseg-sim: {} is finished\n", run.output);
       return;
     }

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 
 /// Loops shared among threads. Results must not depend on the order in which parts are done, so
 /// that any number of threads produces the same bytes.
 namespace grseg {
 
-/// Calls do_part(k) for k = 0 .. count-1.
+/// Calls do_part(k) for k = 0 .. count-1. Throws one of the exceptions that do_part throws.
 template <class Part>
 void for_each_part(int threads, std::size_t count, const Part& do_part)
 {
@@ -16,8 +17,16 @@ void for_each_part(int threads, std::size_t count, const Part& do_part)
     for (std::size_t k = 0; k < count; ++k) do_part(k);
     return;
   }
+  std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t k = 0; k < count; ++k) do_part(k);
+  for (std::size_t k = 0; k < count; ++k) try {
+      do_part(k);
+    } catch (
+        ...) {  // such as bad_alloc; an exception that leaves a parallel region ends the program
+#pragma omp critical
+      failure = std::current_exception();
+    }
+  if (failure) std::rethrow_exception(failure);
 }
 
 constexpr std::size_t range_size = 16384;

@@ -165,8 +165,9 @@ void Completeness<D>::measure_neighbours(std::size_t band)
   moved_in_band_[band] = std::sqrt(squared);
 }
 
-/// True if groups that are not neighbours cannot have met. A whole band or group lies between them,
-/// so they may approach each other by its height or width, less cell_, more than neighbours may.
+/// True if groups that are not neighbours cannot have met. A whole band or group lies between them.
+/// They may come closer than neighbours may, by the height or width of what lies between, less
+/// cell_.
 template <int D>
 bool Completeness<D>::bands_stay_apart() const
 {

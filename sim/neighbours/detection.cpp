@@ -77,8 +77,8 @@ HWY_INLINE Apart<D> apart_of(std::span<const Position<D>> position, const std::u
   }
 }
 
-/// Writes the pairs of grains whose distance is below reach + margin to `near`, and one bit per
-/// pair to `acting`; returns the number of these pairs.
+/// Writes the pairs of grains whose forecast distance is at most reach + margin to `near`, and one
+/// bit per pair to `acting`; returns the number of these pairs.
 template <bool periodic, int D>
 HWY_INLINE std::size_t find_near_pairs(const Pairs<D>& pairs, const PairClass& c,
                                        const DetectionRule<D>& rule, NearPairs& near,

@@ -34,14 +34,13 @@ struct Members {
 /// Bodies of a cell, and ranges of bodies among which the partners of their pairs are searched.
 template <int D>
 struct Search {
-  /// Partners in a row of cells along x. Partners before `column` are on the left of the cell's
-  /// column, partners after it on the right. `shift`, m, is added to x and z of the partners.
-  /// `border`, m: border of the cell across y and, of spheres, z, towards the row; `signs`: 1 if the
-  /// partners are above it, -1 if below it, 0 if the row is in the same band or slice.
+  /// Partners in a row of cells along x.
   struct Part {
-    Range bodies{}, column{};
-    Horizontal<D> shift{};
-    Across<D> border{}, signs{};
+    Range bodies{};         // all partners, from left to right
+    Range column{};         // those in the same column as the cell
+    Horizontal<D> shift{};  // m, added to x and z of the partners
+    Across<D> border{};     // m, y and (spheres) z of the cell's border towards the row
+    Across<D> signs{};      // 1: the row is above that border, -1: below, 0: beside the cell
   };
   Range cell{};                // bodies of the cell
   double left = 0, right = 0;  // m, borders of the cell across x

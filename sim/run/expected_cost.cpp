@@ -35,6 +35,7 @@ double bytes_of_frame(const Scene& scene, double grains)
 }
 
 constexpr double most_measured = 4000;  // grains of the small bed, unless it would be too low
+constexpr double most_of_low_bed = 2 * most_measured;
 
 /// Scene of a small bed of the same grains. If `scene` is a chute, the bed flows alike.
 Scene small_bed(const Scene& scene)
@@ -55,12 +56,14 @@ Scene small_bed(const Scene& scene)
   return small;
 }
 
-/// Wall-clock time for one step of one grain, s; no value if the small bed does not come to rest.
+/// Wall-clock time for one step of one grain, s; no value if the small bed has too many grains, as
+/// at large size ratios, or does not come to rest.
 template <int D>
 std::optional<double> measured_grain_step(const Scene& scene)
 try {
   using clock = std::chrono::steady_clock;
   const auto small = small_bed(scene);
+  if (expected_grains(small) > most_of_low_bed) return {};
   const auto each_step = [](double) { stop_if_interrupted(); };
   auto simulation =
       release(deposit<D>(small, {.each_step = each_step, .slowed = {}, .record = {}}), small);

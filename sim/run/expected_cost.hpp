@@ -20,8 +20,8 @@ struct ExpectedCost {
 enum class Measure { where_long, always };
 
 /// Cost of a run of `scene` from the time `begin`, s, to its end, including the deposition if
-/// `begin` is 0. The time is estimated from a small bed of the same grains, which is simulated for
-/// less than a second; by default only if the run may last a minute or more.
+/// `begin` is 0. The time is estimated from a small bed of the same grains, which is simulated for a
+/// few seconds at most; by default only if the run may last a minute or more.
 ExpectedCost expected_cost(const Scene& scene, double begin = 0,
                            Measure measure = Measure::where_long);
 

@@ -27,6 +27,14 @@ po::variables_map empty_command_line()
   return values;
 }
 
+UsageError differs_from_checkpoint(const std::string& key)
+{
+  return UsageError(
+      fmt::format("{} differs from the checkpoint's: it belongs to the bed, which a restart cannot "
+                  "change; leave it out, or begin a new run without --restart",
+                  key));
+}
+
 /// Converts the clock and the impulses, which are sums over a step, to a step of another length.
 template <int D>
 void change_step(typename Simulation<D>::State& state, const Scene& before, const Scene& now)
@@ -74,6 +82,9 @@ Scene scene_of(const std::string& text, const std::string& name)
 Scene scene_of(const std::string& text, const std::string& name, const po::variables_map& given)
 {
   std::vector<std::string> set_again;
+  if (!given["dimension"].defaulted() &&
+      given["dimension"].as<std::string>() != std::to_string(scene_of(text, name).dimension))
+    throw differs_from_checkpoint("dimension");
   if (!given["accuracy"].defaulted())
     set_again.assign(keys_of_accuracy.begin(), keys_of_accuracy.end());
   if (!given["restitution"].defaulted()) {
@@ -88,11 +99,7 @@ Scene scene_of(const std::string& text, const std::string& name, const po::varia
 void require_same_bed(const Scene& before, const Scene& now)
 {
   const auto key = differing_key(before, now, KeyRole::bed);
-  if (!key.empty())
-    throw UsageError(
-        fmt::format("{} differs from the checkpoint's: it belongs to the bed, which a restart "
-                    "cannot change; leave it out, or begin a new run without --restart",
-                    key));
+  if (!key.empty()) throw differs_from_checkpoint(key);
 }
 
 bool same_steps(const Scene& before, const Scene& now)

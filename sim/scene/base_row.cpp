@@ -78,14 +78,21 @@ void check_that_it_holds(const Scene& scene, const char* key)
               key, gap, most));
 }
 
-/// Diameter d, in d_L, of the widest hole between touching lines of touching beads, which are 0.866
-/// apart, and walls at their ends: a sphere that touches three of them, with its centre between
-/// theirs. Walls along z leave no hole (add_bead).
+/// Diameter d, in d_L, of the widest hole of a base. Its lines of touching beads are 0.866 d_L
+/// apart. A sphere of this diameter, with its centre as high as those of the beads, touches three
+/// beads, or two beads and the wall at the ends of x. Walls along z leave no hole (add_bead).
 double widest_hole_of_lines(const Scene& scene)
 {
   const bool ends = scene.lateral == Scene::Lateral::walls && scene.geometry != &drum_geometry;
   // A wall and beads at (0.433, -0.5) and (0.433, 0.5): (0.433 - d/2)^2 + 0.25 = (1 + d)^2/4.
   return ends ? 0.201 : 2 / std::sqrt(3) - 1;
+}
+
+/// True if the geometry allows a flat base.
+bool may_be_flat(const Scene& scene)
+{
+  const bool kind = scene.geometry == &bed_geometry || scene.geometry == &column_geometry;
+  return kind && scene.shake_amplitude == 0;
 }
 
 }  // namespace
@@ -126,12 +133,10 @@ void check_base_of_spheres(const Scene& scene)
   const double hole = widest_hole_of_lines(scene) * scene.large_diameter;
   const double most = widest_gap_that_holds * smallest_grain(scene);
   require(hole <= most, "size-ratio",
-          fmt::format(
-              "size-ratio is {:g}: grains would fall through the boundary of large grains, "
-              "whose holes are {:.4g} m wide; the smallest grains need holes of at most "
-              "{:.4g} m; choose a smaller size-ratio{}",
-              scene.size_ratio, hole, most,
-              scene.geometry->shapes_base && scene.shake_amplitude == 0 ? " or base = wall" : ""));
+          fmt::format("size-ratio is {:g}: grains would fall through the boundary of large grains, "
+                      "whose holes are {:.4g} m wide; the smallest grains need holes of at most "
+                      "{:.4g} m; choose a smaller size-ratio or spread{}",
+                      scene.size_ratio, hole, most, may_be_flat(scene) ? ", or base = wall" : ""));
 }
 
 void add_base_row(Boundaries& to, const Scene& scene)

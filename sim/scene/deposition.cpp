@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 namespace grseg {
 namespace {
@@ -21,8 +23,6 @@ constexpr double depth_tolerance = 0.02;
 constexpr double usual_solid_fraction = 0.81, usual_of_spheres = 0.61;
 constexpr int most_attempts = 20;
 constexpr double most_growth = 2;  // of the volume, from one attempt to the next
-// Lattice spacing of the falling grains, in largest diameters; and where they do not fit otherwise.
-constexpr double loose = 1.12, touching = 1 + 1e-9;
 
 /// Grain at its place above the base, before it falls.
 struct Falling {
@@ -31,11 +31,22 @@ struct Falling {
   Vec3 at;        // m, position of its centre
 };
 
+/// How tightly grains are placed before they fall.
+struct Tightness {
+  double spacing;  // of the lattice, in largest diameters
+  /// Mixed grains are in layers of one species, each with a lattice of its own. Otherwise every cell
+  /// of the lattice is wide enough for a large grain.
+  bool in_layers;
+};
+// Each is for grains that need too much room with the one before, as in a well filled drum.
+constexpr double touching = 1 + 1e-9;
+constexpr Tightness tightnesses[] = {{1.12, false}, {touching, false}, {touching, true}};
+
 /// All grains before they fall, on a lattice.
 struct Shower {
   std::vector<Falling> grains;
-  double top;      // m, height above which there are none
-  double spacing;  // of the lattice, in largest diameters
+  double top;  // m, height above which there are none
+  Tightness tightness;
 };
 
 /// Square or cube of the lattice on which grains are placed before they fall. It contains one grain
@@ -87,31 +98,57 @@ void fill_cell(Shower& shower, const Scene& scene, const Layer& layer, long plac
   }
 }
 
-/// Adds layers of `cells`, which are as wide as grains of the species `lattice` need.
-void add_layers(Shower& shower, const Scene& scene, const std::vector<Cell>& cells, Species lattice,
-                RandomNumbers& random)
+/// Adds the next layer. It takes as many `cells` as fit, which are as wide as grains of the species
+/// `lattice` need, from their front.
+void add_layer(Shower& shower, const Scene& scene, std::span<const Cell>& cells, Species lattice,
+               RandomNumbers& random)
 {
-  const double side = shower.spacing * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
+  const double side =
+      shower.tightness.spacing * (nominal_diameter(scene, lattice) * (1 + scene.spread / 2));
   const long rows = scene.dimension == 3 ? static_cast<long>(scene.width / side) : 1;
   const double along_z = scene.width / static_cast<double>(rows);
-  auto& y = shower.top;
-  for (auto cell = cells.begin(); cell != cells.end(); y += side) {
-    const auto below = room_at(scene, y), above = room_at(scene, y + side);
-    const double left = std::max(below.left, above.left);
-    const double width = std::min(below.right, above.right) - left;
-    const long per_row = static_cast<long>(width / side);
-    if (per_row < 1 && above.right - above.left <= below.right - below.left)
-      throw UsageError(
-          fmt::format("the grains do not fit before they fall: the {} is too narrow for another "
-                      "one at a height of {:.4g} m; choose a smaller {}{}, or a wider {}",
-                      scene.geometry->name, y, scene.geometry->checks_height ? "depth" : "fill",
-                      scene.initial == Scene::Initial::mixed ? ", or initial = large-below" : "",
-                      scene.geometry->name));
-    if (per_row < 1) continue;
-    const double along_x = width / static_cast<double>(per_row);
-    const Layer layer{left, y, along_x, along_z, side, per_row};
-    for (long place = 0; place < per_row * rows && cell != cells.end(); ++place, ++cell)
-      fill_cell(shower, scene, layer, place, *cell, random);
+  const double y = shower.top;
+  shower.top += side;
+  const auto below = room_at(scene, y), above = room_at(scene, shower.top);
+  const double left = std::max(below.left, above.left);
+  const double width = std::min(below.right, above.right) - left;
+  const long per_row = static_cast<long>(width / side);
+  if (per_row < 1 && above.right - above.left <= below.right - below.left)
+    throw UsageError(
+        fmt::format("the grains do not fit before they fall: the {} is too narrow for another one "
+                    "at a height of {:.4g} m; choose a smaller {}{}, or a wider {}",
+                    scene.geometry->name, y, scene.geometry->checks_height ? "depth" : "fill",
+                    scene.initial == Scene::Initial::mixed ? ", or initial = large-below" : "",
+                    scene.geometry->name));
+  if (per_row < 1) return;
+  const double along_x = width / static_cast<double>(per_row);
+  const Layer layer{left, y, along_x, along_z, side, per_row};
+  const long taken = std::min(per_row * rows, std::ssize(cells));
+  for (long place = 0; place < taken; ++place)
+    fill_cell(shower, scene, layer, place, cells[static_cast<std::size_t>(place)], random);
+  cells = cells.subspan(static_cast<std::size_t>(taken));
+}
+
+void add_layers(Shower& shower, const Scene& scene, std::span<const Cell> cells, Species lattice,
+                RandomNumbers& random)
+{
+  while (!cells.empty()) add_layer(shower, scene, cells, lattice, random);
+}
+
+/// Adds layers of the one and the other species in random order, each as likely as its share of the
+/// grains' volume that is left.
+void add_layers_of_either(Shower& shower, const Scene& scene, std::span<const Cell> large,
+                          std::span<const Cell> small, RandomNumbers& random)
+{
+  while (!large.empty() || !small.empty()) {
+    const double of_large = static_cast<double>(large.size()) *
+                            nominal_volume(scene, scene.large_diameter),
+                 of_small = static_cast<double>(small.size()) *
+                            nominal_volume(scene, scene.small_diameter);
+    if (random.uniform() * (of_large + of_small) < of_large)
+      add_layer(shower, scene, large, Species::large, random);
+    else
+      add_layer(shower, scene, small, Species::small, random);
   }
 }
 
@@ -140,11 +177,11 @@ struct Numbers {
 };
 
 /// Grains above `bottom`, m, in the arrangement Scene::initial; large grains first in the list.
-Shower shower_of(const Scene& scene, Numbers count, double bottom, double spacing,
+Shower shower_of(const Scene& scene, Numbers count, double bottom, const Tightness& tightness,
                  RandomNumbers& random)
 {
   const auto [large, small] = count;
-  Shower shower{{}, bottom, spacing};
+  Shower shower{{}, bottom, tightness};
   const auto add = [&](Species lattice, const std::vector<Cell>& cells) {
     add_layers(shower, scene, cells, lattice, random);
   };
@@ -155,7 +192,10 @@ Shower shower_of(const Scene& scene, Numbers count, double bottom, double spacin
       add(Species::large, all_large), add(Species::small, all_small);
       break;
     case Scene::Initial::mixed:
-      add(Species::large, mixed_cells(scene, large, small, random));
+      if (tightness.in_layers)
+        add_layers_of_either(shower, scene, all_large, all_small, random);
+      else
+        add(Species::large, mixed_cells(scene, large, small, random));
       break;
     case Scene::Initial::large_above:
       add(Species::small, all_small), add(Species::large, all_large);
@@ -164,6 +204,16 @@ Shower shower_of(const Scene& scene, Numbers count, double bottom, double spacin
   std::stable_partition(shower.grains.begin(), shower.grains.end(),
                         [](const Falling& grain) { return grain.species == Species::large; });
   return shower;
+}
+
+/// Grains as loose as `tightnesses` allow; throws the last one's UsageError if none fits.
+Shower first_that_fits(const Scene& scene, Numbers count, double bottom, RandomNumbers& random)
+{
+  for (auto tightness = std::begin(tightnesses);; ++tightness) try {
+      return shower_of(scene, count, bottom, *tightness, random);
+    } catch (const UsageError&) {
+      if (std::next(tightness) == std::end(tightnesses)) throw;
+    }
 }
 
 /// Numbers of mobile grains that fill `volume`, m^2 or m^3.
@@ -191,13 +241,7 @@ Packing loose_packing(const Scene& scene, double volume, RandomNumbers& random)
   if (count.large + count.small == 0)
     throw UsageError("the bed has no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
-  const auto shower = [&] {
-    try {
-      return shower_of(scene, count, boundaries.top, loose, random);
-    } catch (const UsageError&) {  // as in a well filled drum
-      return shower_of(scene, count, boundaries.top, touching, random);
-    }
-  }();
+  const auto shower = first_that_fits(scene, count, boundaries.top, random);
   packing.walls = boundaries.walls;
   packing.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
   if (scene.dimension == 3) {
@@ -341,9 +385,11 @@ double bed_height(const Simulation<D>& simulation, double base_top)
 
 double expected_grains(const Scene& scene)
 {
+  constexpr double too_many_to_build = 1e8;  // boundaries of such scenes fill the memory, too
   const auto [large, small] = numbers_of(scene, usual_volume(scene));
-  return static_cast<double>(large) + static_cast<double>(small) +
-         static_cast<double>(scene.geometry->boundaries(scene).position.size());
+  const double mobile = static_cast<double>(large) + static_cast<double>(small);
+  if (mobile > too_many_to_build) return mobile;
+  return mobile + static_cast<double>(scene.geometry->boundaries(scene).position.size());
 }
 
 double expected_time_to_rest(const Scene& scene)

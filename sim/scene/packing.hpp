@@ -37,8 +37,8 @@ double bead_radius(const Scene& scene);  // m, half the large nominal diameter
 
 /// Adds a bead at (x, y), m; in three dimensions a line of touching or overlapping beads along z.
 /// Beads of odd lines are shifted by half a bead, so that neighbouring lines interlock. At walls
-/// along z, even lines touch the walls and odd lines reach halfway into them: a gap would wedge
-/// small grains between a bead that moves and the wall.
+/// along z, even lines touch the walls and odd lines reach halfway into them. Otherwise small grains
+/// would wedge themselves between a moving bead and the wall.
 void add_bead(Boundaries& to, const Scene& scene, const Vec2& at, long line = 0);
 
 /// Distance of neighbouring beads or lines of beads that touch, m.

@@ -16,6 +16,8 @@ namespace grseg {
 
 class Geometry;
 
+constexpr double least_gravity = 1e-9, most_gravity = 1e9;  // m/s^2
+
 /// Settings of a simulation of two species of grains within boundaries, in SI. Members are keys of
 /// a scene file and options of the same name. sim/scene/keys/keys.cpp lists the keys with their
 /// defaults, ranges and help; resolve_scene() sets the members from them.

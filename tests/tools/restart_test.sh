@@ -61,6 +61,15 @@ before=$(cksum on.h5)
 # shellcheck disable=SC2086
 $bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 2>words
 grep -q '^grseg-sim: on.h5 is finished$' words && [ "$(cksum on.h5)" = "$before" ] || fail "a finished run: $(cat words)"
+for other in "--seed 2" "--slope 20"; do
+  # shellcheck disable=SC2086
+  if $bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 $other 2>words; then
+    fail "a finished run of another scene ($other): $(cat words)"
+  fi
+done
+# shellcheck disable=SC2086
+refused 2 "--estimate covers a whole run; leave out --restart and --continue" \
+  $chute --duration 10 --checkpoint on.chk --continue --estimate -o on.h5
 # shellcheck disable=SC2086
 refused 2 "--continue needs --checkpoint FILE, and cannot be combined with --restart" $chute --continue -o other.h5
 

@@ -3,6 +3,8 @@
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,10 +22,16 @@ void resolve_drum(Scene& scene, const KeyGiven&)
 {
   require(scene.lateral == Scene::Lateral::walls, "lateral",
           "lateral is periodic: a drum is closed; set lateral = walls");
+  require(scene.base == Scene::Base::grains, "base",
+          "base is wall: the wall of a drum is a ring of grains; set base = grains");
   require(scene.drum_diameter >= 4 * scene.large_diameter, "drum-diameter",
           "drum-diameter is below 4 d_L: large grains have no room to flow; choose a wider drum");
   scene.length = scene.drum_diameter + 2 * scene.large_diameter;
   scene.depth = scene.fill * scene.drum_diameter;
+  require(scene.depth >= scene.small_diameter, "fill",
+          fmt::format("fill is {:g}: the grains would be less than one small grain deep; choose a "
+                      "larger fill or a wider drum",
+                      scene.fill));
 }
 
 Boundaries ring_of_beads(const Scene& scene)

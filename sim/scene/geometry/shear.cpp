@@ -3,6 +3,8 @@
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/packing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace grseg {
@@ -42,6 +44,11 @@ void resolve_shear_cell(Scene& scene, const KeyGiven& given)
           "slope-rate turns gravity, and a shear cell has no gravity; leave it out");
   // With this gravity, the pressure of the bed on its base is about plate-pressure.
   if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
+  require(
+      scene.gravity >= least_gravity && scene.gravity <= most_gravity, "plate-pressure",
+      fmt::format("the deposition would have a gravity of {:.3g} m/s^2, to press like the plate; "
+                  "set gravity, from {:g} to {:g}, or choose another plate-pressure",
+                  scene.gravity, least_gravity, most_gravity));
 }
 
 void begin_to_shear(Packing& packing, const Scene& scene)

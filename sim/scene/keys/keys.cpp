@@ -92,7 +92,8 @@ std::vector<SceneKey> bed_keys()
     {"initial", "large-below", choice(&Scene::initial, Words<Scene::Initial>{
          {"large-below", Scene::Initial::large_below}, {"mixed", Scene::Initial::mixed},
          {"large-above", Scene::Initial::large_above}}), bed, yes,
-     "place of the large grains in the deposited bed: below the small ones, among them, or above"},
+     "place of the large grains in the deposited bed: below the small ones, among them (where there is "
+     "little room, in layers of one species in random order), or above"},
     {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
      geometry_help()},
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
@@ -118,7 +119,7 @@ std::vector<SceneKey> flow_keys()
      "slope of the base at t = 0, degrees"},
     {"slope-rate", "0", number(&Scene::slope_rate, -1e9, 1e9), flow, yes,
      "rate at which the slope becomes steeper after t = 0, degrees/s"},
-    {"gravity", "9.8", number(&Scene::gravity, 1e-9, 1e9), flow, no,
+    {"gravity", "9.8", number(&Scene::gravity, least_gravity, most_gravity), flow, no,
      "gravity, m/s^2. In a shear cell it acts during the deposition only; by default the pressure "
      "of the bed is then about plate-pressure"},
     {"friction", "0.5", number(&Scene::friction, 0, 1e3), flow, yes,
@@ -158,7 +159,7 @@ std::vector<SceneKey> base_keys()
     {"base-height-spread", "0", in_plane(length(&Scene::base_height_spread, "0", "10dL")), bed, yes,
      "range of the tops of the grains in a bed's base: each is lowered by a random distance from 0 "
      "to this value"},
-    {"base-spacing", "", in_plane(length(&Scene::base_spacing, "0.1dS", "10dL")), bed, yes,
+    {"base-spacing", "", in_plane(length(&Scene::base_spacing, "0.1dS", "12.5dL")), bed, yes,
      "mean distance along x between centres of grains in a bed's base, enlarged until a whole "
      "number fills the cell. Below base-diameter the grains overlap (default: base-diameter)"},
     {"base-spacing-spread", "0", in_plane(number(&Scene::base_spacing_spread, 0, 1)), bed, yes,

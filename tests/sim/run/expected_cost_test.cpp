@@ -54,6 +54,22 @@ TEST(ExpectedCost, ABedThatDoesNotFitIntoMemoryIsRefusedUnlessItIsForced)
   EXPECT_NO_THROW(require_room(cost, "run.h5"));
 }
 
+// Its base alone would need more memory than there is.
+TEST(ExpectedCost, OfAHugeBedIsKnownWithoutItsBase)
+{
+  const auto scene =
+      small_chute::scene({"--dimension", "3", "--length", "1e5dL", "--width", "1e5dL"});
+  EXPECT_GT(expected_cost(scene).memory, 1e12);
+}
+
+// Some 40,000 small grains of a tenth of d_L would lie in the smallest bed.
+TEST(ExpectedCost, HasNoTimeIfTheSmallestBedOfSuchGrainsIsLarge)
+{
+  const auto scene = small_chute::scene({"--dimension", "3", "--base", "wall", "--size-ratio", "10",
+                                         "--depth", "30dS", "--width", "8dL"});
+  EXPECT_FALSE(expected_cost(scene, 0, Measure::always).seconds);
+}
+
 TEST(ExpectedCost, IsSaidInFewWords)
 {
   EXPECT_EQ(to_text(ExpectedCost{3357, 43.4e6, 1.46e9, 190.0}),

@@ -332,6 +332,36 @@ TEST(Restart, OnlyDurationAndStorageLeaveTheMotionAsItWas)
   EXPECT_FALSE(same_steps(chute, now));
 }
 
+// Depth of a drum, spacing of a base that fills its cell, and gravity of a shear cell follow from
+// other keys. If the program could not read them again, the checkpoint would be lost.
+TEST(Restart, ATextOfASceneIsReadAgainIfTheSceneWasAccepted)
+{
+  using Words = std::vector<std::string>;
+  for (const auto& words : {Words{"--geometry", "drum", "--lateral", "walls", "--drum-diameter",
+                                  "40dS", "--fill", "0.026"},
+                            Words{"--base-diameter", "10dL", "--length", "81dL"},
+                            Words{"--geometry", "shear", "--plate-pressure", "1e6"}}) {
+    const auto text = to_text(small_chute::paper_scene(words));
+    EXPECT_EQ(to_text(scene_of(text, "run.chk")), text) << words.back();
+  }
+  for (const auto& words : {Words{"--geometry", "drum", "--lateral", "walls", "--drum-diameter",
+                                  "40dS", "--fill", "0.024"},
+                            Words{"--geometry", "shear", "--plate-pressure", "1e12"}})
+    EXPECT_THROW(small_chute::paper_scene(words), SceneError) << words.back();
+}
+
+TEST(Restart, AnotherDimensionIsAnotherBed)
+{
+  Checkpoint<2> checkpoint;
+  checkpoint.scene = to_text(scene());
+  try {
+    with_words(checkpoint, {"--dimension", "3"});
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()).find("dimension differs from the checkpoint's"), 0U);
+  }
+}
+
 TEST(Restart, ATextOfTheSceneGivesTheSameSceneForAnyRatio)
 {
   for (int k = 0; k < 200; ++k) {

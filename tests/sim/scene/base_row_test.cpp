@@ -221,6 +221,12 @@ TEST(BaseRow, MayHaveGrainsThatOverlap)
   EXPECT_EQ(base.position.size(), 40U);
 }
 
+TEST(BaseRow, OfADrumIsARingOfGrains)
+{
+  EXPECT_EQ(complaint_about({"--geometry", "drum", "--lateral", "walls", "--base", "wall"}),
+            "base");
+}
+
 TEST(BaseRow, IsThatOfABedOfGrains)
 {
   for (const auto& where : {Words{"--base", "wall"}, Words{"--geometry", "shear"},

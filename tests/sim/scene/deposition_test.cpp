@@ -222,6 +222,37 @@ TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
   }
 }
 
+/// Mean height of the large grains of a mixed, half filled drum, less that of the small ones, over
+/// the height of the bed.
+template <int D>
+double large_above_small(const char* seed)
+{
+  const auto simulation = deposit<D>(scene_from(
+      {"--geometry",      "drum", "--lateral", "walls", "--dimension",  std::to_string(D),
+       "--drum-diameter", "30dS", "--fill",    "0.5",   "--size-ratio", "1.9",
+       "--phi-large",     "0.5",  "--initial", "mixed", "--accuracy",   "draft",
+       "--seed",          seed}));
+  const auto& grains = simulation.world().grains;
+  double sum[2]{}, count[2]{}, lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    if (grains.fixed[k]) continue;
+    const double y = simulation.position(k).y();
+    const bool large = grains.species[k] == Species::large;
+    sum[large] += y, ++count[large];
+    lowest = std::min(lowest, y), highest = std::max(highest, y);
+  }
+  return (sum[1] / count[1] - sum[0] / count[0]) / (highest - lowest);
+}
+
+// At size ratio 1.9 a room as wide as a large grain holds one small one, at 2 four (spheres: eight).
+// So mixed grains do not fit if each has such a room, and fall in layers of one species. Some five
+// layers of large grains at random heights have a mean that deviates by 1/sqrt(12 x 5) = 0.13.
+TEST(Deposition, GrainsOfAnySizeRatioFillHalfADrumMixed)
+{
+  EXPECT_NEAR(large_above_small<2>("1"), 0, 0.39);
+  EXPECT_NEAR(large_above_small<3>("1"), 0, 0.39);
+}
+
 TEST(Deposition, WithoutGrainsIsRefused)
 {
   EXPECT_THROW(deposit<2>(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
