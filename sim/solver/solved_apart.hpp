@@ -95,6 +95,11 @@ class FreeBodies {
 /// sink deeper, step after step. So the two contacts are relaxed in turn, after each sweep, until
 /// they settle. If the bodies approach each other no impulses stop a locked grain, and impulses add
 /// up; they are set to 0 when the bodies move apart.
+///
+/// Three contacts can lock a sphere where no two can: between three touching beads from mu = 0.83 on
+/// at size ratio 2, from 0.5 on at 3.4. Such spheres are solved like others. Measured, in chutes of
+/// size ratio 4 and mu = 0.5, and of 2 and mu = 1, over 1,300 sqrt(d_S/g) and more: neither overlaps
+/// with the base (0.011 d_S at the start, 0.006 later) nor forces on it grow.
 template <int D>
 class WedgedGrains {
  public:
