@@ -79,8 +79,8 @@ void check_that_it_holds(const Scene& scene, const char* key)
 }
 
 /// Diameter d, in d_L, of the widest hole of a base. Its lines of touching beads are 0.866 d_L
-/// apart. A sphere of this diameter, with its centre as high as those of the beads, touches three
-/// beads, or two beads and the wall at the ends of x. Walls along z leave no hole (add_bead).
+/// apart. A sphere of this diameter touches three beads, or two beads and the wall at the ends of x,
+/// when its centre is at the height of the beads' centres. Walls along z leave no hole (add_bead).
 double widest_hole_of_lines(const Scene& scene)
 {
   const bool ends = scene.lateral == Scene::Lateral::walls && scene.geometry != &drum_geometry;
