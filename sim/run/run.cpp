@@ -209,9 +209,30 @@ bool begins_the_run(const std::string& output, const CheckpointHead& checkpoint)
   return run.size() < longer.size() && longer.digests()[run.size() - 1] == run.digest();
 }
 
-/// Deposits the bed. Sets `slowed_from` to the time, s, from which its grains were slowed down.
+/// Remarks on a deposition, for the user.
+struct DepositionRemarks {
+  double slowed_from = 0;  // s, time from which grains were slowed down; 0: they were not
+  bool layered = false;    // mixed grains fell in layers of one species
+
+  std::string text() const
+  {
+    std::string lines;
+    if (layered)
+      lines +=
+          "remark     mixed grains had too little room to fall; they fell in layers of one species "
+          "in random order\n";
+    if (slowed_from > 0)
+      lines += fmt::format(
+          "remark     the bed had not come to rest after {:.3g} s of deposition; its grains were "
+          "slowed down\n",
+          slowed_from);
+    return lines;
+  }
+};
+
 template <int D>
-Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options, double& slowed_from)
+Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options,
+                              DepositionRemarks& remarks)
 {
   ProgressBar progress(
       program,
@@ -222,8 +243,11 @@ Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options, dou
     if (interrupted()) throw interruption("interrupted during the deposition of the bed");
     progress.show(time);
   };
-  const auto slowed = [&](double time) { slowed_from = slowed_from > 0 ? slowed_from : time; };
-  return deposit<D>(scene, {.each_step = step, .slowed = slowed, .record = {}});
+  const auto slowed = [&](double time) {
+    if (remarks.slowed_from == 0) remarks.slowed_from = time;
+  };
+  const auto layered = [&] { remarks.layered = true; };
+  return deposit<D>(scene, {.each_step = step, .slowed = slowed, .record = {}, .layered = layered});
 }
 
 template <int D>
@@ -238,8 +262,8 @@ void simulate_in(const Scene& scene, const RunOptions& options)
   listen();
 
   announce(scene, 0, options);
-  double slowed_from = 0;
-  const auto deposited = deposit_visibly<D>(scene, options, slowed_from);
+  DepositionRemarks remarks;
+  const auto deposited = deposit_visibly<D>(scene, options, remarks);
   const auto simulation = release(deposited, scene);
   Run<D> run{simulation,
              new_trajectory(scene, simulation, provenance(scene, options), part),
@@ -248,11 +272,7 @@ void simulate_in(const Scene& scene, const RunOptions& options)
              options.command_line};
   if (scene.keep_deposition) record_deposition<D>(scene, run.writer);
   finish(scene, options, run);
-  if (slowed_from > 0 && !options.quiet)
-    tell(fmt::format(
-        "remark     the bed had not come to rest after {:.3g} s of deposition; its grains were "
-        "slowed down\n",
-        slowed_from));
+  if (!options.quiet) tell(remarks.text());
 }
 
 template <int D>

@@ -233,8 +233,10 @@ double usual_volume(const Scene& scene)
   return (scene.dimension == 3 ? usual_of_spheres : usual_solid_fraction) * bed_area(scene);
 }
 
-/// Base and falling grains of a bed whose mobile grains fill `volume`, m^2 or m^3.
-Packing loose_packing(const Scene& scene, double volume, RandomNumbers& random)
+/// Base and falling grains of a bed whose mobile grains fill `volume`, m^2 or m^3. Calls `layered` if
+/// they are mixed, but in layers of one species.
+Packing loose_packing(const Scene& scene, double volume, const std::function<void()>& layered,
+                      RandomNumbers& random)
 {
   Packing packing;
   const auto count = numbers_of(scene, volume);
@@ -242,6 +244,7 @@ Packing loose_packing(const Scene& scene, double volume, RandomNumbers& random)
     throw UsageError("the bed has no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
   const auto shower = first_that_fits(scene, count, boundaries.top, random);
+  if (layered && shower.tightness.in_layers && scene.initial == Scene::Initial::mixed) layered();
   packing.walls = boundaries.walls;
   packing.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
   if (scene.dimension == 3) {
@@ -406,7 +409,7 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
   // attempt needs other random numbers.
   RandomNumbers random(scene.seed);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    auto packing = loose_packing(scene, volume, random);
+    auto packing = loose_packing(scene, volume, hooks.layered, random);
     set_falling(packing, scene, random);
     auto simulation = simulation_of<D>(packing, scene);
     const auto start = simulation;

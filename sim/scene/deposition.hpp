@@ -18,6 +18,8 @@ struct DepositionHooks {
   /// If set, the accepted deposition is repeated with the clock at negative times, and this
   /// function is called after every step; the frame is null in steps without one.
   std::function<void(const StepReport&, const Simulation<D>&, const Frame<D>*)> record;
+  /// Called if mixed grains have so little room that they fall in layers of one species.
+  std::function<void()> layered = {};
 };
 
 /// A bed at rest on its base at slope 0, made by letting a loose random packing fall: large grains

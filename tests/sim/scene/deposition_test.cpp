@@ -227,11 +227,15 @@ TEST(Deposition, OfGrainsThatDoNotFitIntoTheirColumnIsRefused)
 template <int D>
 double large_above_small(const char* seed)
 {
-  const auto simulation = deposit<D>(scene_from(
-      {"--geometry",      "drum", "--lateral", "walls", "--dimension",  std::to_string(D),
-       "--drum-diameter", "30dS", "--fill",    "0.5",   "--size-ratio", "1.9",
-       "--phi-large",     "0.5",  "--initial", "mixed", "--accuracy",   "draft",
-       "--seed",          seed}));
+  bool layered = false;
+  const auto simulation = deposit<D>(
+      scene_from(
+          {"--geometry",      "drum", "--lateral", "walls", "--dimension",  std::to_string(D),
+           "--drum-diameter", "30dS", "--fill",    "0.5",   "--size-ratio", "1.9",
+           "--phi-large",     "0.5",  "--initial", "mixed", "--accuracy",   "draft",
+           "--seed",          seed}),
+      {.each_step = {}, .slowed = {}, .record = {}, .layered = [&] { layered = true; }});
+  EXPECT_TRUE(layered);
   const auto& grains = simulation.world().grains;
   double sum[2]{}, count[2]{}, lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (std::size_t k = 0; k < grains.size(); ++k) {
