@@ -4,7 +4,9 @@
 #include "tests/shell.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -47,13 +49,14 @@ std::vector<std::string> all_words()
 std::vector<std::string> words_of_shell(const std::string& shell,
                                         const std::vector<std::string>& words)
 {
-  const auto path = testing::TempDir() + "words.sh";
+  const auto path = testing::TempDir() + "words" + std::to_string(getpid()) + ".sh";
   std::ofstream script(path, std::ios::binary);
   script << "printf '%s\\0'";
   for (const auto& word : words) script << ' ' << shell_word(word);
   script << '\n';
   script.close();
   const auto out = shell::run(shell + " " + path).out;
+  std::filesystem::remove(path);
   std::vector<std::string> read;
   for (auto begin = out.begin(); begin != out.end();) {
     const auto end = std::find(begin, out.end(), '\0');
