@@ -17,12 +17,12 @@ void for_each_part(int threads, std::size_t count, const Part& do_part)
     for (std::size_t k = 0; k < count; ++k) do_part(k);
     return;
   }
+  // An exception, such as bad_alloc, that leaves a parallel region would end the program.
   std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t k = 0; k < count; ++k) try {
       do_part(k);
-    } catch (
-        ...) {  // such as bad_alloc; an exception that leaves a parallel region ends the program
+    } catch (...) {
 #pragma omp critical
       failure = std::current_exception();
     }

@@ -209,10 +209,12 @@ Shower shower_of(const Scene& scene, Numbers count, double bottom, const Tightne
 /// Grains as loose as `tightnesses` allow; throws the last one's UsageError if none fits.
 Shower first_that_fits(const Scene& scene, Numbers count, double bottom, RandomNumbers& random)
 {
-  for (auto tightness = std::begin(tightnesses);; ++tightness) try {
+  const bool may_be_layered = scene.initial == Scene::Initial::mixed;
+  const auto* last = std::end(tightnesses) - (may_be_layered ? 1 : 2);
+  for (const auto* tightness = std::begin(tightnesses);; ++tightness) try {
       return shower_of(scene, count, bottom, *tightness, random);
     } catch (const UsageError&) {
-      if (std::next(tightness) == std::end(tightnesses)) throw;
+      if (tightness == last) throw;
     }
 }
 
@@ -244,7 +246,7 @@ Packing loose_packing(const Scene& scene, double volume, const std::function<voi
     throw UsageError("the bed has no grain; choose a larger depth or length, or smaller grains");
   const auto boundaries = scene.geometry->boundaries(scene);
   const auto shower = first_that_fits(scene, count, boundaries.top, random);
-  if (layered && shower.tightness.in_layers && scene.initial == Scene::Initial::mixed) layered();
+  if (layered && shower.tightness.in_layers) layered();
   packing.walls = boundaries.walls;
   packing.box = {scene.length, 1.5 * shower.top, scene.lateral == Scene::Lateral::periodic};
   if (scene.dimension == 3) {

@@ -190,9 +190,30 @@ def check_sums():
         assert abs(a - b) <= 1e-11 * np.abs(layers[name][inside]).sum(), (name, a, b)
 
 
+def check_b():
+    """B over cells by hand. Cells on the base, or with a solid fraction of 0.3, are left out."""
+    columns = ["t0", "x0", "y0", "V[m^2]", "area_S[m^2]", "area_L[m^2]"]
+    sums = ["A_SS", "A_LL", "M", "Msize", "A_Sb", "A_Lb"]
+    cells = [(0, 0, 0, 1, 0.3, 0.3, 3, 3, 4, 3, 0, 0), (0, 1, 0, 1, 0.3, 0.3, 9, 1, 4, 3, 1, 0),
+             (0, 2, 0, 1, 0.15, 0.15, 9, 1, 4, 3, 0, 0)]
+    with open("cells.tsv", "w") as file:
+        print(*columns, *(f"{name}_{c}" for name in sums for c in ("xx", "yy")), sep="\t", file=file)
+        for cell in cells:
+            print(*cell[:6], *(value / 2 for value in cell[6:] for _ in "xy"), sep="\t", file=file)
+    for name, x in (("kinetic.tsv", "012"), ("other.tsv", "013")):
+        with open(name, "w") as file:
+            print(*columns[:3], "K_S_xx", "K_S_yy", "K_L_xx", "K_L_yy", sep="\t", file=file)
+            for place in x:
+                print(0, place, 0, 1, 2, 1, 0, sep="\t", file=file)
+    tool = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "../../scripts/figures/b-of-map")
+    assert call(tool, "cells.tsv", "kinetic.tsv").stdout == "cells\t1\nsize\t0.4000\nhalf\t0.0000\nkinetic\t-1.0000\n"
+    assert "other cells or windows" in call(tool, "cells.tsv", "other.tsv").stderr
+
+
 check_hdf5(stress, "stress.h5")
 check_hdf5(kinetic, "flow.h5")
 check_hdf5(micro, "micro.h5")
 check_vtk(stress)
 check_refusals()
 check_sums()
+check_b()

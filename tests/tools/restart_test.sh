@@ -66,6 +66,7 @@ for other in "--seed 2" "--slope 20"; do
   if $bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 $other 2>words; then
     fail "a finished run of another scene ($other): $(cat words)"
   fi
+  [ "$(cksum on.h5)" = "$before" ] || fail "a finished run was changed by another scene ($other)"
 done
 # shellcheck disable=SC2086
 refused 2 "--estimate covers a whole run; leave out --restart and --continue" \

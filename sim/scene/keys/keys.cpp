@@ -92,8 +92,8 @@ std::vector<SceneKey> bed_keys()
     {"initial", "large-below", choice(&Scene::initial, Words<Scene::Initial>{
          {"large-below", Scene::Initial::large_below}, {"mixed", Scene::Initial::mixed},
          {"large-above", Scene::Initial::large_above}}), bed, yes,
-     "place of the large grains in the deposited bed: below the small ones, among them (where there is "
-     "little room, in layers of one species in random order), or above"},
+     "place of the large grains in the deposited bed: below the small ones, among them (where there "
+     "is little room, in layers of one species in random order), or above"},
     {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
      geometry_help()},
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
@@ -220,7 +220,8 @@ std::vector<SceneKey> run_keys()
     {"seed", "1", whole_number(&Scene::seed, 1, 4294967295), bed, yes,
      "seed of the random numbers"},
     {"threads", "1", whole_number(&Scene::threads, 0, 1024), machine, no,
-     "number of threads; 0 uses all cores. Only scenes of 30,000 grains or more gain. Results do not depend on it"},
+     "number of threads; 0 uses all cores. Only scenes of 30,000 grains or more gain. Results do "
+     "not depend on it"},
     {"accuracy", "standard", choice(&Scene::accuracy, accuracy_words()), flow, yes,
      "sets step, tolerance, min-sweeps, max-sweeps and precision unless they are given. If masses "
      "of grains differ much: up to 16 times as many sweeps, and a tolerance smaller by the same "
