@@ -37,6 +37,26 @@ struct alignas(64) BlockOf : MembersOf<D, Real, LanesOf<Real>> {
 template <int D>
 using ContactBlock = BlockOf<D, double>;
 
+/// A vector of one contact of a block.
+template <std::size_t n>
+Eigen::Matrix<double, n, 1> at_lane(const std::array<Lanes, n>& components, std::size_t lane)
+{
+  Eigen::Matrix<double, n, 1> vector;
+  for (std::size_t k = 0; k < n; ++k) vector[static_cast<Eigen::Index>(k)] = components[k][lane];
+  return vector;
+}
+
+/// Impulse of a contact on i, kg m/s, or on j if `sign` is -1.
+template <int D>
+Vector<D> impulse_of(const ContactBlock<D>& block, std::size_t lane, double sign = 1)
+{
+  const Vector<D> n = sign * at_lane(block.n, lane);
+  if constexpr (D == 2)
+    return block.impulse_n[lane] * n + block.impulse_t[0][lane] * Vec2(-n.y(), n.x());
+  else
+    return block.impulse_n[lane] * n + sign * at_lane(block.impulse_t, lane);
+}
+
 /// Numbers of a body, in either precision.
 template <int D>
 constexpr std::uint32_t numbers_per_body = sizeof(Motion<D>) / sizeof(double);

@@ -42,6 +42,7 @@ struct Variant {
 /// DetectionSums, one number per lane.
 struct alignas(64) LaneSums {
   Lanes overlap{}, largest_overlap{}, fastest_approach{}, load{}, root_loads{}, approaches{};
+  Lanes strain{};  // twice the sum
   std::size_t touching = 0;
   bool coincident = false;
 };
@@ -200,8 +201,8 @@ HWY_INLINE Geometries<D> contact_geometry(const Pairs<D>& pairs, const PairClass
   return {n.n, n.distance * (one / reach), n.distance - reach};
 }
 
-HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Mask<Doubles> used,
-                           std::size_t lane, LaneSums& sums)
+HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, Vector w_nn,
+                           hn::Mask<Doubles> used, std::size_t lane, LaneSums& sums)
 {
   const Doubles d;
   const auto add = [&](Lanes& to, Vector what)
@@ -216,6 +217,7 @@ HWY_INLINE void accumulate(Vector gap, Vector approach, Vector impulse_n, hn::Ma
   keep_most(sums.fastest_approach, approach);
   add(sums.load, impulse_n);
   add(sums.root_loads, root(impulse_n));
+  add(sums.strain, impulse_n * impulse_n * w_nn);
   const auto fresh = choose(impulse_n == hn::Zero(d), approach);
   add(sums.approaches, fresh * fresh);
 }
@@ -253,7 +255,7 @@ HWY_INLINE void set_block(const Pairs<D>& pairs, const PairClass& c, const NearP
     store(in_plane(remembered_of.t, g.n), block.impulse_t, lane);
     store(g.gap, origin.gap, lane);
     store(rebound.remembered, origin.approach, lane);
-    accumulate(g.gap, larger(minus(separation), hn::Zero(d)), n, used, lane, sums);
+    accumulate(g.gap, larger(minus(separation), hn::Zero(d)), n, v.inverse_mass, used, lane, sums);
   }
 }
 
@@ -308,9 +310,15 @@ void find(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& rule
   }
   if (!base_seen) contacts.on_base = contacts.size;
   const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
-  total = {
-      sums.touching,  sum(sums.overlap),    most(sums.largest_overlap), most(sums.fastest_approach),
-      sum(sums.load), sum(sums.root_loads), sum(sums.approaches),       sums.coincident};
+  total = {sums.touching,
+           sum(sums.overlap),
+           most(sums.largest_overlap),
+           most(sums.fastest_approach),
+           sum(sums.load),
+           sum(sums.root_loads),
+           sum(sums.approaches),
+           sum(sums.strain) / 2,
+           sums.coincident};
   leave_vectors();
 }
 
@@ -398,6 +406,7 @@ DetectionSums find_contacts(const Pairs<D>& pairs, const DetectionRule<D>& rule,
     total.load += s.load;
     total.root_loads += s.root_loads;
     total.approaches += s.approaches;
+    total.strain += s.strain;
     total.coincident |= s.coincident;
   }
   return total;

@@ -72,6 +72,7 @@ struct DetectionSums {
   double load = 0;              // kg m/s, sum of p_n of the previous step
   double root_loads = 0;        // (kg m/s)^(1/2), sum of sqrt(p_n) of the previous step
   double approaches = 0;        // (m/s)^2, sum of approach^2 over pairs whose p_n was 0
+  double strain = 0;            // J, sum of W_nn p_n^2/2, p_n of the previous step
   bool coincident = false;      // true if the centres of a pair coincide
 };
 

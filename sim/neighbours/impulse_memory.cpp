@@ -36,7 +36,7 @@ template <int D>
 void keep(const StripContacts<D>& contacts, Pairs<D>& pairs, ImpulseSums<D>& total)
 {
   const Doubles d;
-  alignas(64) Lanes gaps{};
+  alignas(64) Lanes gaps{}, held_back{}, largest{};
   alignas(64) Along<D, Lanes> on_base{};
   for (std::size_t b = 0; b < contacts.size; ++b) {
     const auto& block = contacts.blocks[b];
@@ -50,6 +50,8 @@ void keep(const StripContacts<D>& contacts, Pairs<D>& pairs, ImpulseSums<D>& tot
       const auto approach = choose(bearing, load(origin.approach, lane));
       store_memories<D>({n, t, approach}, pairs, &origin.pair[lane]);
       add(gaps, choose(bearing, magnitude(load(origin.gap, lane))));
+      add(held_back, choose(approach > hn::Zero(d), n * (approach - load(block.rebound, lane))));
+      store(larger(load(largest, lane), n), largest, lane);
       total.force_bearing += hn::CountTrue(d, bearing);
       if (b < contacts.on_base) continue;
       const auto impulse = in_space(load(block.n, lane), n, t);
@@ -57,6 +59,8 @@ void keep(const StripContacts<D>& contacts, Pairs<D>& pairs, ImpulseSums<D>& tot
     }
   }
   total.gap_bearing = sum(gaps);
+  total.held_back = sum(held_back) / 2;
+  total.largest = *std::max_element(largest.begin(), largest.end());
   for (std::size_t k = 0; k < D; ++k)
     total.on_base_side[static_cast<Eigen::Index>(k)] = sum(on_base[k]);
   leave_vectors();
@@ -107,6 +111,8 @@ ImpulseSums<D> keep_impulses(std::span<const StripContacts<D>> contacts, Pairs<D
   for (const auto& s : sums) {
     total.force_bearing += s.force_bearing;
     total.gap_bearing += s.gap_bearing;
+    total.held_back += s.held_back;
+    total.largest = std::max(total.largest, s.largest);
     total.on_base_side += s.on_base_side;
   }
   return total;

@@ -12,8 +12,12 @@ namespace grseg {
 /// Sums over the contacts after the solve.
 template <int D>
 struct ImpulseSums {
-  std::size_t force_bearing = 0;               // number of contacts with an impulse
-  double gap_bearing = 0;                      // m, sum of |gap| over contacts with an impulse
+  std::size_t force_bearing = 0;  // number of contacts with an impulse
+  double gap_bearing = 0;         // m, sum of |gap| over contacts with an impulse
+  double largest = 0;             // kg m/s, largest p_n
+  /// J, sum of p_n (approach - rebound)/2 over pairs whose approach is stored: the energy that
+  /// they gave up in this step and may get back in the next one.
+  double held_back = 0;
   Vector<D> on_base_side = Vector<D>::Zero();  // kg m/s, impulse of walls and base on mobile grains
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int32_t format_version = 1;
+constexpr std::int32_t format_version = 2;
 
 static_assert(std::endian::native == std::endian::little, "files and memory are little-endian");
 

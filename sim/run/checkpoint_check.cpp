@@ -176,7 +176,7 @@ class Check {
     const auto& [since_frame, totals] = trajectory.recorder;
     for (const auto& [group, t] :
          {std::pair{"/trajectory/since_frame", &since_frame}, {"/trajectory/totals", &totals}})
-      require(t->steps >= 0 && t->missed >= 0 && t->divided >= 0,
+      require(t->steps >= 0 && t->missed >= 0 && t->divided >= 0 && t->solved_again >= 0,
               fmt::format("{} has a negative number of steps", group));
   }
 

@@ -27,6 +27,12 @@ void visit_totals(Visitor& visit, const std::string& group, Totals& totals)
   at("base_impulse_z", totals.base_impulse.z());
   at("farthest_approach", totals.farthest_approach);
   at("divided", totals.divided);
+  at("solved_again", totals.solved_again);
+  at("largest_impulses", totals.largest_impulses);
+  at("missed_impulse", totals.missed_impulse);
+  at("missed_gain", totals.missed_gain);
+  at("missed_overlap", totals.missed_overlap);
+  at("last_missed", totals.last_missed);
 }
 
 /// Calls `visit` with the path and the value of every entry of a checkpoint. Writing, reading,
@@ -51,6 +57,7 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit("/box/length_z", c.box.length_z);
   visit("/box/periodic_z", c.box.periodic_z);
   visit("/state/steps_done", c.state.steps_done);
+  visit("/state/held_back", c.state.held_back);
   visit("/state/position", c.state.position);
   visit("/state/image", c.state.image);
   visit("/state/velocity", c.state.velocity);

@@ -85,7 +85,13 @@ void StepTotals::add(const StepReport& report)
                  .fastest_approach = report.fastest_approach,
                  .farthest_approach = report.farthest_approach,
                  .divided = report.parts > 1 ? 1 : 0,
-                 .base_impulse = report.base_impulse});
+                 .solved_again = report.solved_again ? 1 : 0,
+                 .base_impulse = report.base_impulse,
+                 .largest_impulses = solver.converged ? report.largest_impulse : 0,
+                 .missed_impulse = solver.converged ? 0 : report.largest_impulse,
+                 .missed_gain = solver.converged ? 0 : report.energy_gain,
+                 .missed_overlap = last_missed ? report.largest_overlap : 0,
+                 .last_missed = !solver.converged});
 }
 
 void StepTotals::add(const StepTotals& other)
@@ -103,7 +109,13 @@ void StepTotals::add(const StepTotals& other)
   fastest_approach = std::max(fastest_approach, other.fastest_approach);
   farthest_approach = std::max(farthest_approach, other.farthest_approach);
   divided += other.divided;
+  solved_again += other.solved_again;
   base_impulse += other.base_impulse;
+  largest_impulses += other.largest_impulses;
+  missed_impulse = std::max(missed_impulse, other.missed_impulse);
+  missed_gain = std::max(missed_gain, other.missed_gain);
+  missed_overlap = std::max(missed_overlap, other.missed_overlap);
+  last_missed = other.last_missed;
 }
 
 std::vector<Observable> Recorder::observables(int dimension)
@@ -134,7 +146,7 @@ void Recorder::write(const Frame<D>& frame, const Simulation<D>& simulation)
   if constexpr (D == 3) values.push_back(now.t.per_step(now.t.base_impulse.z()) / world.step);
   writer_.append(frame, values);
   state_.totals.add(state_.since_frame);
-  state_.since_frame = {};
+  state_.since_frame = {.last_missed = state_.since_frame.last_missed};
 }
 
 template <int D>

@@ -22,7 +22,15 @@ struct StepTotals {
   double sum_overlap = 0, sum_gap_bearing = 0;
   double largest_residual = 0, largest_overlap = 0, fastest_approach = 0, farthest_approach = 0;
   std::int64_t divided = 0;          ///< steps that were divided into parts
+  std::int64_t solved_again = 0;     ///< steps whose first solution created energy
   Vec3 base_impulse = Vec3::Zero();  ///< kg m/s, on mobile grains
+  /// kg m/s, sum of the largest impulse of each step that met the tolerance.
+  double largest_impulses = 0;
+  // In steps that missed the tolerance:
+  double missed_impulse = 0;  ///< kg m/s, largest impulse
+  double missed_gain = 0;     ///< J, most energy that contacts added (StepReport::energy_gain)
+  double missed_overlap = 0;  ///< m, largest overlap in the step after
+  bool last_missed = false;   ///< the last step missed the tolerance
 
   void add(const StepReport& report);
   void add(const StepTotals& other);

@@ -6,6 +6,7 @@
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
 #include "sim/solver/sweep.hpp"
+#include "sim/step/world.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -80,16 +81,39 @@ std::string line(const char* title, const std::string& text)
   return fmt::format("  {:<10} {}\n", title, text);
 }
 
+/// What the steps that missed the tolerance did.
+std::string missed_in_words(const StepTotals& t, const Scene& scene, const Grains& grains)
+{
+  const double weight_d = mobile_mass(grains) * scene.gravity * scene.small_diameter;
+  const double gain = std::max(t.missed_gain, 0.0);
+  const auto energy =
+      weight_d > 0 ? fmt::format("{:.1e} M g d_S", gain / weight_d) : fmt::format("{:.1e} J", gain);
+  const auto met = static_cast<double>(t.steps - t.missed);
+  const auto force =
+      t.largest_impulses > 0
+          ? fmt::format("the largest force was {:.2g} times its mean over other steps, ",
+                        t.missed_impulse * met / t.largest_impulses)
+          : "";
+  return fmt::format(
+      "{}contacts added at most {} of energy, overlaps just after were up to {:.1e} d_S", force,
+      energy, t.missed_overlap / scene.small_diameter);
+}
+
 /// Reasons to doubt the run and remarks, one per line, with remedies.
-std::string doubts(const StepTotals& t, const Scene& scene)
+std::string doubts(const StepTotals& t, const Scene& scene, const Grains& grains)
 {
   std::string lines;
   if (t.missed > 0)
-    lines += line(
-        "doubt",
-        fmt::format("{} missed the tolerance of the solver, and their forces are less exact: raise "
-                    "--max-sweeps, now {}, or choose a smaller --step",
-                    counted(static_cast<std::size_t>(t.missed), "step"), scene.solver.max_sweeps));
+    lines += line("doubt", fmt::format("{} missed the tolerance of the solver. There, {}: raise "
+                                       "--max-sweeps, now {}, or choose a smaller --step",
+                                       counted(static_cast<std::size_t>(t.missed), "step"),
+                                       missed_in_words(t, scene, grains), scene.solver.max_sweeps));
+  if (t.solved_again > 0)
+    lines +=
+        line("remark", fmt::format("{} {} solved again, because rebounds with friction would have "
+                                   "created energy",
+                                   counted(static_cast<std::size_t>(t.solved_again), "step"),
+                                   t.solved_again == 1 ? "was" : "were"));
   if (t.divided > 0)
     lines += line("remark",
                   fmt::format("{} {} divided into parts, because grains might have "
@@ -186,7 +210,10 @@ Parameters to_parameters(const RunSummary& s)
   n["summary_sweeps_per_step"] = {t.per_step(t.sweeps)};
   n["summary_contacts_per_step"] = {t.per_step(t.force_bearing)};
   n["summary_divided_steps"] = {static_cast<double>(t.divided)};
+  n["summary_solved_again"] = {static_cast<double>(t.solved_again)};
   n["summary_missed_share"] = {t.per_step(static_cast<double>(t.missed))};
+  n["summary_missed_gain"] = {t.missed_gain};
+  n["summary_missed_overlap"] = {t.missed_overlap};
   n["summary_largest_residual"] = {t.largest_residual};
   n["summary_mean_overlap"] = {t.mean_overlap()};
   n["summary_largest_overlap"] = {t.largest_overlap};
@@ -221,7 +248,7 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
   text += line("stiffness", stiffness_in_words(s.stiffness));
   const auto left_out = effects_left_out(scene);
   if (!left_out.empty()) text += line("left out", left_out);
-  return text + doubts(s.totals, scene);
+  return text + doubts(s.totals, scene, grains);
 }
 
 std::string next_steps(const std::string& output)

@@ -82,6 +82,9 @@ void add_part(const StepReport& part, StepReport& all)
   all.largest_overlap = std::max(all.largest_overlap, before.largest_overlap);
   all.fastest_approach = std::max(all.fastest_approach, before.fastest_approach);
   all.farthest_approach = std::max(all.farthest_approach, before.farthest_approach);
+  all.largest_impulse = std::max(all.largest_impulse, before.largest_impulse);
+  all.energy_gain = std::max(all.energy_gain, before.energy_gain);
+  all.solved_again = all.solved_again || before.solved_again;
   all.base_impulse += before.base_impulse;
 }
 
@@ -186,6 +189,7 @@ Simulation<D>::Simulation(const World<D>& world, const State& state)
   pairs_.restore(state_, state.pairs);
   restored_ = true;
   steps_done_ = state.steps_done;
+  held_back_ = state.held_back;
 }
 
 template <int D>
@@ -202,6 +206,7 @@ auto Simulation<D>::state() const -> State
   state.row = state_.row;
   state.pairs = pairs_.state();
   state.steps_done = steps_done_;
+  state.held_back = held_back_;
   return state;
 }
 
@@ -258,6 +263,7 @@ bool Simulation<D>::try_to_take(const Part& part, Frame<D>* frame, StepReport& r
   }
   if (report.farthest_approach == infinity) stop_at_coincidence(begin);
   forget_impulses(renewed);
+  begin_budget();
   accelerate<D>(h * world_.gravity, state_, threads_);
   apply_loads(world_, h, body_of_, state_);
   solve(report);
@@ -290,17 +296,23 @@ WedgedGrains<D> Simulation<D>::wedged_grains(bool any)
 template <int D>
 void Simulation<D>::solve(StepReport& report)
 {
+  guesses_.clear();
+  if (found_.fastest_approach > approach_of_impact * impulse_of_fall() / mobile_mass_)
+    for_blocks<D>(contacts_, [&](const ContactBlock<D>& block, const BlockOrigin<D>&) {
+      guesses_.insert(guesses_.end(), block.impulse_n.begin(), block.impulse_n.end());
+    });
+  report.solver = run_solver();
+}
+
+template <int D>
+SolverReport Simulation<D>::run_solver()
+{
   std::vector<BlockRuns<D>> strips;
   std::size_t count = 0;
   for (std::size_t s = 0; s < contacts_.size(); ++s) {
     strips.push_back(contacts_[s].used(pairs_.bodies_of_strip(s)));
     count += contacts_[s].count;
   }
-  guesses_.clear();
-  if (found_.fastest_approach > approach_of_impact * impulse_of_fall() / mobile_mass_)
-    for_blocks<D>(contacts_, [&](const ContactBlock<D>& block, const BlockOrigin<D>&) {
-      guesses_.insert(guesses_.end(), block.impulse_n.begin(), block.impulse_n.end());
-    });
   const bool any_free = std::any_of(world_.bodies.begin(), world_.bodies.end(),
                                     [](const auto& body) { return body.free(); });
   std::optional<FreeBodies<D>> free;
@@ -308,10 +320,10 @@ void Simulation<D>::solve(StepReport& report)
   // A plate that moves freely transmits its load by squeezing: no grains are treated as wedged.
   auto wedged = wedged_grains(!any_free && effects_.friction);
   const SolvedApart<D> apart{free ? &*free : nullptr, wedged.empty() ? nullptr : &wedged};
-  report.solver = solve_contacts<D>(strips, state_.motion,
-                                    {count, world_.material.friction, effects_, world_.solver,
-                                     reference_range(count), threads_, apart},
-                                    solver_memory_);
+  return solve_contacts<D>(strips, state_.motion,
+                           {count, world_.material.friction, effects_, world_.solver,
+                            reference_range(count), threads_, apart},
+                           solver_memory_);
 }
 
 template <int D>
@@ -424,11 +436,29 @@ void Simulation<D>::stop_at_coincidence(double time) const
 template <int D>
 void Simulation<D>::keep_impulses(StepReport& report)
 {
-  const auto sums = grseg::keep_impulses<D>(contacts_, pairs_.pairs(), threads_);
+  auto sums = store_impulses();
+  double gain = energy_gain(sums.held_back);
+  const double most = most_gain(report.solver.sweeps);
+  report.solved_again = gain > most;
+  if (report.solved_again) {
+    solve_within_limit(most, report);
+    sums = store_impulses();
+    gain = most;
+  }
+  report.energy_gain = gain - held_back_;
+  end_known_ = true;
+  held_back_ = sums.held_back;
   lower_guesses();
   report.force_bearing = sums.force_bearing;
   report.sum_gap_bearing = sums.gap_bearing;
+  report.largest_impulse = sums.largest;
   report.base_impulse.head<D>() = sums.on_base_side;
+}
+
+template <int D>
+ImpulseSums<D> Simulation<D>::store_impulses()
+{
+  return grseg::keep_impulses<D>(contacts_, pairs_.pairs(), threads_);
 }
 
 template <int D>
@@ -470,6 +500,7 @@ void Simulation<D>::set_velocity(std::size_t g, const Vector<D>& velocity,
   auto& motion = state_.motion[body_of_[g]];
   for (std::size_t k = 0; k < D; ++k) motion.v[k] = velocity[static_cast<Eigen::Index>(k)];
   motion.rim = components_of<D>(angular_velocity * world_.grains.radius[g]);
+  end_known_ = false;
 }
 
 template class Simulation<2>;

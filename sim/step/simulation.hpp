@@ -6,6 +6,7 @@
 #include "sim/neighbours/impulse_memory.hpp"
 #include "sim/neighbours/pair_list.hpp"
 #include "sim/solver/solver.hpp"
+#include "sim/step/energy_limit.hpp"
 #include "sim/step/world.hpp"
 
 #include <cstdint>
@@ -30,7 +31,10 @@ struct StepReport {
   double fastest_approach = 0;
   /// m, fastest_approach times the duration of the (part of the) step; infinity: centres coincide.
   double farthest_approach = 0;
-  int parts = 1;                     ///< number of parts into which the step was divided
+  int parts = 1;               ///< number of parts into which the step was divided
+  double largest_impulse = 0;  ///< kg m/s, largest p_n
+  double energy_gain = 0;  ///< J, W + T - T_before of energy_limit.hpp: energy that contacts added
+  bool solved_again = false;         ///< the first solution created energy (energy_limit.hpp)
   Vec3 base_impulse = Vec3::Zero();  ///< kg m/s, of base and walls on mobile grains
 };
 
@@ -42,7 +46,8 @@ struct StepReport {
 ///   v  ->  v+ = v + h g + sum of contact impulses/m   solved for all contacts together
 ///   x  ->  x + h v+/2        grains move on to the end of the step
 ///
-/// sim/contact/contact_law.hpp states which pairs act, and the law that their impulses obey.
+/// sim/contact/contact_law.hpp states which pairs act, and the law that their impulses obey;
+/// sim/step/energy_limit.hpp states how much energy they may add.
 ///
 /// If a pair would approach by more than half the smallest diameter in a step, its grains might
 /// pass through each other without a contact. Then the step is divided into two halves, and these
@@ -60,6 +65,7 @@ class Simulation {
     std::vector<std::int32_t> row;        // row of each grain, in the order of memory
     typename PairList<D>::State pairs;
     std::int64_t steps_done = 0;
+    double held_back = 0;  // J, see energy_limit.hpp
   };
 
   /// Grains start at `position` at rest.
@@ -139,7 +145,24 @@ class Simulation {
   double impulse_of_fall() const;  // kg m/s, of gravity or a plate's load in one step
   ReferenceRange reference_range(std::size_t contacts) const;
   void solve(StepReport& report);
+  SolverReport run_solver();
   void keep_impulses(StepReport& report);
+  ImpulseSums<D> store_impulses();
+
+  // Limit of the energy of a step (energy_limit.cpp). begin_budget() is called before gravity and
+  // loads act, the others after the solve.
+  void begin_budget();
+  double work_of_boundaries() const;  // J, on grains, and energy that free bodies lost
+  /// Left side of the limit, J, less the round-off. `held_back`: T.
+  double energy_gain(double held_back);
+  double most_gain(int sweeps) const;  // right side of the limit, J
+  void solve_within_limit(double most, StepReport& report);
+  /// Impulses of all blocks, kg m/s, and changes of velocities of World::bodies by contacts, m/s.
+  Eigen::VectorXd solution();
+  void set_impulses(const Eigen::VectorXd& solution);
+  /// Sets the impulses of the blocks and adds their effect to the motion.
+  void apply(const Eigen::VectorXd& solution);
+
   // Writes a frame (snapshot.cpp). To be called after the solve, while bodies are at their
   // positions at mid-step; `middle` is the time of mid-step, s.
   void write_frame(double middle, Frame<D>& frame) const;
@@ -162,6 +185,10 @@ class Simulation {
   double written_step_ = 0;                // s, see written_step()
   std::vector<StripContacts<D>> contacts_;
   SolverMemory<D> solver_memory_;
+  MotionSums<D> at_begin_, at_end_;    // at the beginning and at the end of the step
+  bool end_known_ = false;             // true if at_end_ describes the present motion
+  std::vector<double> bodies_before_;  // m/s, velocity of World::bodies along y at the beginning
+  double held_back_ = 0;               // J, in the last step
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // true if contacts_ do not belong to the previous step
 };

@@ -53,9 +53,12 @@ inline Simulation<2> bed(const Scene& scene)
 inline Checkpoint<2> checkpoint_of(const Simulation<2>& simulation, const Scene& scene)
 {
   const auto& world = simulation.world();
-  const StepTotals since_frame{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, {14, 1.0 / 3, 0}};
+  const StepTotals since_frame{
+      1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, {15, 1.0 / 3, 0}, 16, 17, 18, 19, true};
   StepTotals totals;
   totals.largest_residual = 0.1;
+  auto state = simulation.state();
+  state.held_back = 1.0 / 9;
   return {{to_text(scene),
            "a test",
            "first\nsecond",
@@ -64,7 +67,7 @@ inline Checkpoint<2> checkpoint_of(const Simulation<2>& simulation, const Scene&
            1.0 / 7,
            {3, 0xfedcba9876543210, {since_frame, totals}, 0.25, 1.5}},
           world.walls,
-          simulation.state()};
+          state};
 }
 
 }  // namespace grseg::small_chute

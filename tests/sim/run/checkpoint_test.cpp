@@ -84,6 +84,12 @@ std::vector<double> numbers_of(const StepTotals& t)
           t.fastest_approach,
           t.farthest_approach,
           static_cast<double>(t.divided),
+          static_cast<double>(t.solved_again),
+          t.largest_impulses,
+          t.missed_impulse,
+          t.missed_gain,
+          t.missed_overlap,
+          static_cast<double>(t.last_missed),
           t.base_impulse.x(),
           t.base_impulse.y()};
 }
@@ -118,6 +124,7 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.state.velocity, written.state.velocity);
   EXPECT_EQ(read.state.rim, written.state.rim);
   EXPECT_EQ(read.state.row, written.state.row);
+  EXPECT_EQ(read.state.held_back, written.state.held_back);
   EXPECT_EQ(read.state.steps_done, 50);
   EXPECT_EQ(read.state.pairs.made_at, written.state.pairs.made_at);
   EXPECT_EQ(read.state.pairs.i, written.state.pairs.i);
@@ -132,7 +139,8 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.trajectory.begin, 0.25);
   EXPECT_EQ(read.trajectory.wall, 1.5);
   EXPECT_EQ(numbers_of(read.trajectory.recorder.since_frame),
-            (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 1.0 / 3}));
+            (std::vector<double>{1,  2,  3,  4,  5,  6,  7,  8, 9,  10,     11,
+                                 12, 13, 14, 16, 17, 18, 19, 1, 15, 1.0 / 3}));
   EXPECT_EQ(numbers_of(read.trajectory.recorder.totals),
             numbers_of(written.trajectory.recorder.totals));
 }
@@ -163,7 +171,7 @@ TEST_F(CheckpointFile, AnotherVersionIsRefused)
     tamper([&](hid_t file) { put(file, "/version", H5T_NATIVE_INT, version); });
     EXPECT_EQ(complaint(),
               path + ": is a checkpoint of version " + std::to_string(version) +
-                  ", and this grseg-sim reads version 1; continue with the program that wrote it");
+                  ", and this grseg-sim reads version 2; continue with the program that wrote it");
   }
 }
 

@@ -42,12 +42,36 @@ TEST(Summary, CountsOneStepAsOne)
 {
   const auto scene = small_chute::scene();
   StepTotals totals;
-  totals.missed = totals.divided = 1;
+  totals.missed = totals.divided = totals.solved_again = 1;
   EXPECT_TRUE(says(text_of(totals, scene), "doubt      1 step missed the tolerance"));
   EXPECT_TRUE(says(text_of(totals, scene), "remark     1 step was divided into parts"));
-  totals.missed = totals.divided = 2;
+  EXPECT_TRUE(says(text_of(totals, scene), "remark     1 step was solved again"));
+  totals.missed = totals.divided = totals.solved_again = 2;
   EXPECT_TRUE(says(text_of(totals, scene), "doubt      2 steps missed the tolerance"));
   EXPECT_TRUE(says(text_of(totals, scene), "remark     2 steps were divided into parts"));
+  EXPECT_TRUE(says(text_of(totals, scene), "remark     2 steps were solved again"));
+}
+
+TEST(Summary, SaysWhatTheStepsThatMissedTheToleranceDid)
+{
+  const auto scene = small_chute::scene();
+  StepReport met, missed, after;
+  met.largest_impulse = after.largest_impulse = 2;
+  met.largest_overlap = 0.2 * scene.small_diameter;
+  missed.solver.converged = false;
+  missed.largest_impulse = 14;
+  missed.largest_overlap = 0.1 * scene.small_diameter;
+  missed.energy_gain = 5;
+  after.largest_overlap = 0.03 * scene.small_diameter;
+  met.solver.converged = after.solver.converged = true;
+  StepTotals totals;
+  for (const auto& step : {met, missed, after, met}) totals.add(step);
+  // The bed of this test has no grains, and so no weight.
+  EXPECT_TRUE(
+      says(text_of(totals, scene),
+           "1 step missed the tolerance of the solver. There, the largest force was 7 times "
+           "its mean over other steps, contacts added at most 5.0e+00 J of energy, overlaps "
+           "just after were up to 3.0e-02 d_S"));
 }
 
 }  // namespace

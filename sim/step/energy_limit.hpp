@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/neighbours/grain_state.hpp"
+
+#include <array>
+
+/// Contacts cannot create energy, but the law of a step can. Newton's rebounds with friction may
+/// raise the energy of an exact solution (Kane's example; Glocker, Multibody Syst. Dyn. 29, 77,
+/// 2013), and sweeps that stop early may, too. Simulation therefore limits the work of all contacts
+/// in a step,
+///
+///   W = sum of p . (u + u')/2, without the work of moving boundaries on the grains
+///
+/// with impulses p and relative velocities u, u' before and after the step, to
+///
+///   W + T  <=  T_before + E/N + M (g h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
+///
+///   T  energy that pairs gave up because they are slowed down before they touch; they get it back
+///      in the next step, when they rebound (ImpulseSums::held_back); T_before: of the last step
+///   E  sum of W_nn p_n^2/2 over the impulses of the last step (DetectionSums::strain). With N sweeps
+///      a contact is as soft as a spring of stiffness N m/h^2, and can return p_n^2 W_nn/(2 N)
+///
+/// The last two terms hold for exact solutions without rebounds, where p . u' <= 0: a grain of mass m
+/// whose contacts change its velocity by q adds m q . (v' - (g h + q)/2), and the sum of m q . v' is
+/// the sum of p . u'. The largest value of -m q . (g h + q)/2 is m (g h)^2/8.
+///
+/// A step above the limit is solved again without rebounds. Then impulses are moved from the first
+/// solution towards the second one until the limit is met; if the second one also exceeds it,
+/// because sweeps stopped early, towards no impulses. Impulses stay within Coulomb's cone.
+/// docs/studies/accuracy.md has the measurements.
+namespace grseg {
+
+/// Kinetic energy, J, and momentum, kg m/s, of the mobile grains.
+template <int D>
+struct MotionSums {
+  double kinetic = 0;
+  Vector<D> momentum = Vector<D>::Zero();
+};
+template <int D>
+MotionSums<D> motion_sums(const GrainState<D>& grains, int threads);
+
+/// Largest x in [0, 1] for which a parabola with the values f(0) <= most, f(1/2), f(1) > most is at
+/// most `most` between 0 and x.
+double last_within(const std::array<double, 3>& f, double most);
+
+}  // namespace grseg

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sim/step/energies.hpp"
+#include "tests/sim/worlds.hpp"
+
+#include <gsl/gsl_rng.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace grseg {
+namespace {
+
+/// Discs of diameter 1 on a triangular lattice that touch each other and a floor.
+std::vector<worlds::Disc> lattice()
+{
+  std::vector<worlds::Disc> discs;
+  for (int row = 0; row < 3; ++row)
+    for (int k = 0; k < 4; ++k)
+      discs.push_back({{k + 0.5 * row, 0.5 + row * std::sqrt(0.75)}, 0.5});
+  return discs;
+}
+
+struct Step {
+  StepReport report;
+  Frame<2> frame;
+  EnergyBalance energy;
+};
+
+/// One step of the lattice, whose discs have random velocities and spins. The discs of the lowest
+/// row have 96 times the mass of others.
+Step step_of_lattice(double friction, double restitution, unsigned long seed)
+{
+  const auto discs = lattice();
+  auto world = worlds::world_of(discs);
+  for (std::size_t g = 0; g < 4; ++g) world.grains.mass[g] *= 96;
+  world.walls = {worlds::floor_at(0)};
+  world.material = {friction, restitution};
+  world.solver = {1e-9, 20000};
+  Simulation<2> simulation(world, worlds::positions_of(discs));
+  const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random{gsl_rng_alloc(gsl_rng_mt19937),
+                                                                 gsl_rng_free};
+  gsl_rng_set(random.get(), seed);
+  const auto draw = [&] { return 2 * gsl_rng_uniform(random.get()) - 1; };
+  for (std::size_t g = 0; g < discs.size(); ++g)
+    simulation.set_velocity(g, {draw(), draw()}, 4 * draw());
+  Step step;
+  step.report = simulation.advance(step.frame);
+  step.energy =
+      energy_balance<2>(world.grains, step.frame, simulation.before(), world.gravity, world.step);
+  return step;
+}
+
+TEST(EnergyLimit, ContactsCreateNoEnergyHoweverLargeFrictionAndRestitution)
+{
+  // Without gravity, earlier impulses and forecast, every term on the right side of the limit is 0.
+  int solved_again = 0, steps = 0;
+  for (const double friction : {0.5, 2.0, 1000.0})
+    for (const double restitution : {0.5, 0.9, 1.0})
+      for (unsigned long seed = 1; seed <= 50; ++seed, ++steps) {
+        const auto step = step_of_lattice(friction, restitution, seed);
+        EXPECT_LE(step.energy.work_of_contacts, 1e-11 * step.energy.kinetic_before) << seed;
+        EXPECT_LT(step.energy.defect(), 1e-12);
+        solved_again += step.report.solved_again;
+      }
+  EXPECT_GT(solved_again, 0);
+  EXPECT_LT(solved_again, steps / 2);
+}
+
+TEST(EnergyLimit, StepsWithoutReboundsAreLeftAsTheyAre)
+{
+  for (const double friction : {0.5, 1000.0})
+    for (unsigned long seed = 1; seed <= 200; ++seed) {
+      const auto step = step_of_lattice(friction, 0, seed);
+      EXPECT_FALSE(step.report.solved_again) << seed;
+      EXPECT_LT(step.energy.work_of_contacts, 0) << seed;
+    }
+}
+
+TEST(EnergyLimit, ForcesOfAStepSolvedAgainStayWithinCoulombsCone)
+{
+  int solved_again = 0;
+  for (unsigned long seed = 1; seed <= 200; ++seed) {
+    const auto step = step_of_lattice(2, 0.9, seed);
+    if (!step.report.solved_again) continue;
+    ++solved_again;
+    const auto& contacts = step.frame.contacts;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      // The branch vector points from j to i, and a force on i that pushes points along it.
+      const Vec2 n = contacts.branch[c].normalized(), force = contacts.force[c];
+      const double normal = force.dot(n), tangential = n.x() * force.y() - n.y() * force.x();
+      EXPECT_GE(normal, 0);
+      EXPECT_LE(std::abs(tangential), 2 * normal * (1 + 1e-12)) << seed;
+    }
+  }
+  EXPECT_GT(solved_again, 0);
+}
+
+/// A disc at rest above a boundary grain of the same size, which moves as `body` and hits it
+/// obliquely. Friction and restitution are 1.
+struct PushedDisc {
+  World<2> world = worlds::world_of({{{0, 1.01}, 0.5}, {{0.3, 0}, 0.5, true}});
+  std::vector<Vec2> position{{0, 1.01}, {0.3, 0}};
+  int solved_again = 0;
+  double kinetic = 0;
+
+  explicit PushedDisc(BoundaryBody body)
+  {
+    body.begin = 1;
+    body.end = 2;
+    world.bodies = {body};
+    world.material = {1, 1};
+    Simulation<2> simulation(world, position);
+    for (int step = 0; step < 100; ++step) solved_again += simulation.advance().solved_again;
+    kinetic = translational_energy(simulation) + rotational_energy(simulation);
+  }
+};
+
+TEST(EnergyLimit, MovingBoundariesMayDoWorkOnGrains)
+{
+  const PushedDisc translated({.velocity = {0.1, 3}}),
+      rotated({.velocity = {0, 1}, .centre = {0.3, 0}, .spin = 20}),
+      falling({.mass = 4, .load = 100});
+  for (const auto* disc : {&translated, &rotated, &falling}) {
+    EXPECT_GT(disc->kinetic, 0);
+    EXPECT_EQ(disc->solved_again, 0);
+  }
+}
+
+}  // namespace
+}  // namespace grseg
