@@ -6,6 +6,8 @@ import collections
 
 import numpy as np
 
+from random_scenes.trajectory import in_space
+
 Finding = collections.namedtuple("Finding", "name measured bound place")
 
 
@@ -19,13 +21,13 @@ def worst(name, values, bound, run):
 
 
 def all_of(run):
-    for invariant in (numbers, kinematics, momentum, spins, contact_law, energy_balance, boundaries):
+    for invariant in (numbers, kinematics, momentum, spins, contact_law, energy_balance, energy_of_contacts, boundaries):
         yield from invariant(run)
 
 
 def numbers(run):
     """Every number is finite."""
-    fields = (run.position, run.velocity, run.force, run.spin[..., None])
+    fields = (run.position, run.velocity, run.force, run.spin)
     bad = sum((~np.isfinite(field)).sum(axis=(1, 2)) for field in fields)
     yield worst("finite numbers", bad, 0, run)
 
@@ -58,15 +60,16 @@ def momentum(run):
 
 
 def spins(run):
-    """The change of the angular velocity times I = m r^2/2 is the torque of the contacts; without rotation spins are 0."""
+    """The change of the angular velocity times the moment of inertia is the torque of the contacts; without rotation spins are 0."""
     if run.keys["rotation"] == "off":
-        still = np.abs(run.spin[:, run.mobile]).max(axis=1)
+        still = np.abs(run.spin[:, run.mobile]).max(axis=(1, 2))
         yield worst("no rotation", still, 0, run)
         return
-    error = np.abs(np.diff(run.spin, axis=0) - run.spin_change[1:])[:, run.mobile] * run.radius[run.mobile]
-    rims = np.abs(run.spin * run.radius)[:, run.mobile].max(axis=1)
+    radius = run.radius[run.mobile, None]
+    error = np.abs(np.diff(run.spin, axis=0) - run.spin_change[1:])[:, run.mobile] * radius
+    rims = np.abs(run.spin[:, run.mobile] * radius).max(axis=(1, 2))
     unit = rims[1:] + rims[:-1] + (run.largest_force * run.part)[1:] / run.mass[run.mobile].min() + 1e-300
-    error = error.max(axis=1) / unit
+    error = error.max(axis=(1, 2)) / unit
     yield worst("spins follow torques", np.where(run.follows[1:], error, 0), run.round_off, run)
 
 
@@ -82,11 +85,12 @@ def contact_law(run):
     friction = run.number("friction")
     pull = per_frame_largest(run, -run.normal_force) / run.largest_force
     yield worst("no tension", pull, run.round_off, run)
-    beyond = per_frame_largest(run, np.abs(run.tangential_force) - friction * run.normal_force)
+    beyond = per_frame_largest(run, np.linalg.norm(run.tangential_force, axis=1) - friction * run.normal_force)
     yield worst("Coulomb's limit", beyond / run.largest_force, run.round_off * max(1, friction), run)
     # sim/contact/contact_law.hpp: |x_m + forecast h (v_i - v_j)| <= r_i + r_j + margin.
-    forecast = {"touch": 0, "centred": 0.5, "predictive": 1, "speculative": run.number("horizon")}[run.keys["contact-law"]]
-    along, relative = run.separation(run.before)
+    law = run.keys["contact-law"]
+    forecast = run.number("horizon") if law == "speculative" else {"touch": 0, "centred": 0.5, "predictive": 1}[law]
+    along, relative = run.separation(run.before), run.relative(run.before)
     onward = (forecast * run.part)[run.frame_of]
     reach = np.linalg.norm(run.branch, axis=1) - run.gap
     then = np.where(run.j >= 0, np.linalg.norm(run.branch + onward[:, None] * relative, axis=1) - reach,
@@ -98,20 +102,32 @@ def contact_law(run):
 
 
 def works(run):
-    """Three works in each frame's step, J, from the motion of both grains: of all contacts; of moving boundaries; and the
-    sum of absolute values of all terms, as a scale."""
+    """Two works in each frame's step, J, from the motion of both grains: of all contacts, and of moving boundaries; then the
+    sum of absolute values of all terms, as a scale, and the error of works by the last digits of the file's numbers."""
     mean, spin = (run.before + run.velocity) / 2, run.spin - run.spin_change / 2
-    along, _ = run.separation(mean)
-    sliding = run.sliding(mean, spin)
+    sliding = np.einsum("ca,ca->c", run.tangential_force, run.sliding(mean, spin))
     duration = run.part[run.frame_of]
-    parts = duration * np.stack([run.normal_force * along, run.tangential_force * sliding])
+    parts = duration * np.stack([run.normal_force * run.separation(mean), sliding])
     total = run.sum_of_contacts(parts.sum(axis=0))
     by_boundary = (run.j >= 0) & run.fixed[run.j]
-    surface = mean[run.frame_of, run.j] + (run.arm * (spin * run.radius)[run.frame_of, run.j])[:, None] * run.tangent
+    surface = mean[run.frame_of, run.j] + run.rim(spin, run.j)
     work = duration * np.einsum("ca,ca->c", run.contact_force, surface)
     boundary = run.sum_of_contacts(np.where(by_boundary, work, 0))
     size = run.sum_of_contacts(np.abs(parts).sum(axis=0) + np.where(by_boundary, np.abs(work), 0))
-    return total, boundary, size
+    return total, boundary, size, run.last_digits * run.sum_of_contacts(duration * scale_of_power(run))
+
+
+def scale_of_power(run):
+    """Contact force times the speeds of both grains [C], W. A grain at rest has the speed that the sum of its impulses would
+    give it if they did not cancel."""
+    force = np.linalg.norm(run.contact_force, axis=1)
+    sum_of_forces = np.zeros(run.velocity.shape[:2])
+    both = run.j >= 0
+    np.add.at(sum_of_forces, (run.frame_of, run.i), force)
+    np.add.at(sum_of_forces, (run.frame_of[both], run.j[both]), force[both])
+    speed = np.linalg.norm(run.velocity, axis=2) + np.linalg.norm(run.spin, axis=2) * run.radius
+    speed += np.where(run.fixed, 0, sum_of_forces / run.mass) * run.part[:, None]
+    return force * (speed[run.frame_of, run.i] + np.where(both, speed[run.frame_of, run.j], 0))
 
 
 def energy_balance(run):
@@ -124,8 +140,8 @@ def energy_balance(run):
     unit = kinetic + still
     error = np.abs(translation - seen["translational_energy"]) + np.abs(rotation - seen["rotational_energy"])
     yield worst("energies", error / unit, run.round_off, run)
-    total, boundary, size = works(run)
-    unit = size + kinetic + still
+    total, boundary, size, digits = works(run)
+    unit = size + digits / run.round_off + kinetic + still
     error = np.abs(total - seen["work_of_contacts"]) + np.abs(boundary - seen["work_of_boundaries"])
     yield worst("works", error / unit, run.round_off, run)
     falling = run.part[:, None] * np.einsum("g,fga->fa", run.mass * run.mobile, run.velocity + run.before) / 2
@@ -137,16 +153,63 @@ def energy_balance(run):
     yield worst("energy changes by work", np.where(run.follows[1:], np.abs(missing) / unit, 0), run.round_off, run)
 
 
+def given_away(run):
+    """Energy in each frame's step, J, that contacts may give back in the next step. The speculative law slows down pairs
+    that are still apart, and they rebound later: impulses of these pairs times their approach before the step."""
+    if run.keys["contact-law"] != "speculative":
+        return np.zeros(run.frames)
+    approach = np.maximum(-run.separation(run.before), 0)
+    return run.sum_of_contacts(np.where(run.gap > 0, run.part[run.frame_of] * run.normal_force * approach, 0))
+
+
+def elastic_energy(run):
+    """Energy in each frame's step, J, of contacts as soft springs. With N sweeps a step, a contact whose inverse masses have
+    the sum W is as soft as a spring of stiffness N/(W h^2) (hard case H14), which an impulse p fills with W p^2/(2 N)."""
+    inverse = np.where(run.fixed, 0, 1 / run.mass)
+    inverse = inverse[run.i] + np.where(run.j >= 0, inverse[run.j], 0)
+    impulse = run.part[run.frame_of] * run.normal_force
+    sweeps = np.clip(run.observables["sweeps"], 1, run.parameters["min_sweeps"])
+    return run.sum_of_contacts(inverse * impulse**2) / (2 * sweeps)
+
+
+def free_work(run):
+    """Largest work of contacts in each frame's step without rebounds, J.
+
+    Contacts with impulses p, and relative velocities u before and u' after the step, do the work W = p.(u + u')/2. The
+    velocity of a grain changes by g h + q, with m q the sum of impulses on it. So W = p.u' - sum of m q.(g h + q)/2, less
+    a positive term of rotation, and W <= p.u' + M (g h)^2/8 for any impulses. Without rebounds p.u' <= 0."""
+    fall = np.linalg.norm(run.gravity, axis=1) * run.part
+    work = run.mass[run.mobile].sum() * fall**2 / 8
+    if run.keys["geometry"] == "shear":  # the plate falls by its load
+        work += (run.number("plate-pressure") * run.base_area * run.part) ** 2 / (8 * run.number("plate-mass"))
+    return work
+
+
+def energy_of_contacts(run):
+    """Contacts do at most the work that free_work() allows, and give back at most what they held after the step before."""
+    total, _, size, digits = works(run)
+    held = np.append(0, (given_away(run) + elastic_energy(run))[:-1])
+    # The step before is known if both steps were whole.
+    known = run.follows & np.append(True, run.whole[:-1])
+    excess = np.maximum(total - free_work(run) - held - digits, 0) / (size + sum(run.kinetic) + 1e-300)
+    yield worst("energy from contacts", np.where(known, excess, 0), run.last_digits, run)
+
+
 def displaced(run, time):
-    """Motion of the boundaries up to `time`, s: factor and shift (m) of positions x + iy about the centre of rotation."""
+    """Motion of the boundaries up to `time`, s: rotation about the centre of the drum [F, 3, 3] and shift, m [F, 3]."""
     later = np.maximum(time, 0)
     geometry = run.keys["geometry"]
-    if geometry == "drum":
-        return np.exp(1j * run.number("drum-rate") * later), 0 * later
+    turn, shift = np.zeros((len(later), 3, 3)), np.zeros((len(later), 3))
+    angle = run.number("drum-rate") * later if geometry == "drum" else 0 * later
+    turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angle)
+    turn[:, 1, 0], turn[:, 0, 1] = np.sin(angle), -np.sin(angle)
+    turn[:, 2, 2] = 1
     if geometry == "shear":
-        return np.ones_like(later), run.number("plate-speed") * later + 0j
-    phase = 2 * np.pi * run.number("shake-frequency") * later
-    return np.ones_like(later), 1j * run.number("shake-amplitude") * np.sin(phase)
+        shift[:, 0] = run.number("plate-speed") * later
+    if geometry == "bed":
+        phase = 2 * np.pi * run.number("shake-frequency") * later
+        shift[:, 1] = run.number("shake-amplitude") * np.sin(phase)
+    return turn, shift
 
 
 def moving(run):
@@ -165,20 +228,20 @@ def boundaries(run):
     others = np.setdiff1d(np.flatnonzero(run.fixed), rows)
     if len(others):
         shift = np.abs(run.position[:, others] - run.position[0, others]).max(axis=(1, 2))
-        speed = np.abs(run.velocity[:, others]).max(axis=(1, 2)) + np.abs(run.spin[:, others]).max(axis=1)
+        speed = (np.abs(run.velocity[:, others]) + np.abs(run.spin[:, others])).max(axis=(1, 2))
         yield worst("boundaries stand still", shift + speed, 0, run)
     if len(rows) == 0:
         return
-    centre = complex(*run.parameters["drum_centre"]) if run.keys["geometry"] == "drum" else 0
-    place = run.position[:, rows, 0] + 1j * run.position[:, rows, 1] - centre
+    centre = in_space(run.parameters["drum_centre"]) if run.keys["geometry"] == "drum" else 0
+    place = run.position[:, rows] - centre
     end = run.time + run.part / 2
-    chord = [(a + b) / 2 for a, b in zip(displaced(run, end - run.part), displaced(run, end))]
-    begin = (place[0] - chord[1][0]) / chord[0][0]
-    error = place - chord[0][:, None] * begin - chord[1][:, None]
+    turn, shift = ((a + b) / 2 for a, b in zip(displaced(run, end - run.part), displaced(run, end)))  # of the chord
+    begin = (place[0] - shift[0]) @ np.linalg.inv(turn[0]).T
+    error = place - begin @ turn.transpose(0, 2, 1) - shift[:, None]
     if run.keys["geometry"] == "shear":  # the plate is free along y, as one body
-        along = error.imag - error.imag[:, :1]
-        error = error.real + 1j * along
-    yield worst("boundaries where their motion puts them", np.abs(error).max(axis=1) / run.size, run.round_off / 10, run)
+        error[..., 1] -= error[:, :1, 1].copy()
+    yield worst("boundaries where their motion puts them", np.abs(error).max(axis=(1, 2)) / run.size, run.round_off / 10, run)
     rate = run.number("drum-rate") if run.keys["geometry"] == "drum" else 0
-    turned = np.abs(run.spin[:, rows] - np.where(end > 0, rate, 0)[:, None]).max(axis=1)
+    spin = np.where(end > 0, rate, 0)[:, None] * np.array([0, 0, 1])
+    turned = np.abs(run.spin[:, rows] - spin[:, None]).max(axis=(1, 2))
     yield worst("boundaries turn at their rate", turned / (abs(rate) + 1e-300), run.round_off, run)

@@ -9,8 +9,13 @@ import random
 # Time steps of --accuracy, in sqrt(d_S/g) (sim/scene/keys/keys.hpp).
 STEPS = {"draft": 0.01771, "standard": 0.01107, "reference": 0.00443}
 LONGEST_STEP = 0.05  # longest time step, in sqrt(d_S/g)
-MOST_GRAINS = 250
-SOLID = 0.81 * 4 / math.pi  # number of discs of diameter 1 per unit of area
+SHORTEST_STEP = {2: 1e-3, 3: 8e-3}  # shortest time step of discs, and of spheres, whose depositions take longer
+MOST_SMALL = {2: 250, 3: 60}  # most small grains of discs, and of spheres, whose depositions take longer
+STEPS_OF_A_GRAIN = {2: 6e4, 3: 1.5e4}  # steps that a scene of one grain would make in half a second
+SOLID = {2: 0.81 * 4 / math.pi, 3: 0.61 * 6 / math.pi}  # number of grains of diameter 1 per unit of area or volume
+# Widest size ratio for which small spheres do not fall through a boundary of large ones, for a spread of 0
+# (sim/scene/base_row.cpp).
+MOST_RATIO = 4.4
 
 
 class Dice:
@@ -83,9 +88,11 @@ class Units:
         self.speed = math.sqrt(small * gravity)
 
 
-def random_scene(seed, count):
+def random_scene(seed, count, dimension=2):
     dice = Dice(seed, count)
-    keys = {"geometry": dice.weighted(bed=50, drum=12, shear=14, column=12, hopper=12)}
+    keys = {"geometry": dice.weighted(bed=44, drum=12, shear=14, column=18, hopper=12)}
+    if dimension == 3:
+        keys["dimension"] = "3"
     add_grains(dice, keys)
     depth, grains = add_shape(dice, keys)
     units = add_units(dice, keys, depth)
@@ -106,12 +113,24 @@ def random_scene(seed, count):
                  [["--threads", dice.pick("2", "0")], ["--isa", dice.pick("scalar", "sse4", "avx2")]])
 
 
+def dimension_of(keys):
+    return int(keys.get("dimension", 2))
+
+
+def length_of(keys, key):
+    """Length of a key, in d_S."""
+    return float(keys[key].removesuffix("dS"))
+
+
 def add_grains(dice, keys):
     ratio = {"one": 1, "usual": dice.uniform(1, 4), "wide": dice.log(1, 10), "extreme": dice.log(10, 100)}
     keys["size-ratio"] = number(ratio[dice.weighted(one=15, usual=45, wide=38, extreme=2)])
     keys["spread"] = number(dice.pick(0, 0.08, 0.2, dice.uniform(0, 0.5), dice.uniform(0, 0.9)))
     if dice.chance(0.55):
         keys["density-ratio"] = number(dice.log(1e-3, 1e3))
+    if dimension_of(keys) == 3 and keys["geometry"] in ("drum", "shear", "hopper"):
+        most = MOST_RATIO * (1 - float(keys["spread"]) / 2)
+        keys["size-ratio"] = number(min(float(keys["size-ratio"]), most))
     keys["initial"] = dice.pick("large-below", "mixed", "large-above")
     if dice.chance(0.1):
         keys["rotation"] = "off"
@@ -119,27 +138,41 @@ def add_grains(dice, keys):
 
 def add_shape(dice, keys):
     """Draws lengths and the share of large grains. Returns the depth of the bed in d_S and the number of grains."""
-    ratio = float(keys["size-ratio"])
+    ratio, dimension = float(keys["size-ratio"]), dimension_of(keys)
     wanted = dice.log(10, 200)
     shares = {"small": 0, "large": 1, "mixture": dice.uniform(0, 1)}
     share = shares[dice.weighted(small=12, large=8, mixture=80)]
-    grain = 1 / (1 - share + share / ratio**2)  # mean square of the diameter, d_S^2
+    across = add_width(dice, keys, ratio) if dimension == 3 else 1
+    # Number of grains in a volume (discs: area) of 1, over SOLID.
+    per_volume = 1 - share + share / ratio**dimension
     shape = {"drum": drum_shape, "column": column_shape, "hopper": hopper_shape}.get(keys["geometry"], bed_shape)
-    area, depth = shape(dice, keys, ratio, wanted * grain / SOLID)
+    area, depth = shape(dice, keys, ratio, wanted / per_volume / SOLID[dimension] / across)
+    count = area * across * SOLID[dimension]  # of small grains alone
     # A cell that is wide because large grains are wide would need too many small grains, so their share is reduced.
-    if area * SOLID * (1 - share) > MOST_GRAINS:
-        share = 1 - MOST_GRAINS / (area * SOLID)
+    share = max(share, 1 - MOST_SMALL[dimension] / count)
     if dice.chance(0.15) and share < 1:
-        keys["large-grains"] = str(max(1, round(share * area * SOLID / ratio**2)))
+        keys["large-grains"] = str(max(1, round(share * count / ratio**dimension)))
     else:
         keys["phi-large"] = f"{share:.6g}"
-    if keys["geometry"] in ("bed", "column", "hopper", "shear"):
+    if keys["geometry"] != "drum" and keys.get("base") != "wall":
         keys["origin"] = dice.pick("top", "centre")
-    return depth, area * SOLID * (1 - share + share / ratio**2)
+    return depth, count * (1 - share + share / ratio**dimension)
+
+
+def add_width(dice, keys, ratio):
+    """Draws the width of a cell of spheres, in d_S."""
+    width = dice.log(4.01, 5) * ratio
+    keys |= {"width": number(width) + "dS", "sides": dice.pick("periodic", "periodic", "walls")}
+    return width
+
+
+def random_length(dice, keys, ratio):
+    """Draws the length of a cell, in d_S. Cells of spheres are short, because they are wide."""
+    return dice.log(4.01, 6 if dimension_of(keys) == 3 else 12) * ratio
 
 
 def bed_shape(dice, keys, ratio, area):
-    length = dice.log(4, 12) * ratio
+    length = random_length(dice, keys, ratio)
     depth = min(max(area / length, 2 * ratio, 3), 40 * ratio)
     keys |= {"length": number(length) + "dS", "depth": number(depth) + "dS"}
     if keys["geometry"] == "bed":
@@ -149,11 +182,11 @@ def bed_shape(dice, keys, ratio, area):
 
 
 def add_base(dice, keys, ratio, length):
-    """Draws base grains of any size, height and spacing that leave no hole for a grain."""
+    """Draws base grains of any size, height and spacing that leave no hole for a grain. Bases of spheres have one shape."""
     kind = dice.weighted(touching=45, wall=15, shaped=40)
-    if kind == "wall":
+    if kind == "wall" or falls_through(keys, ratio):
         keys["base"] = "wall"
-    if kind != "shaped":
+    if kind != "shaped" or dimension_of(keys) == 3:
         return
     diameter = min(dice.log(0.3, 2) * dice.pick(1, ratio), 0.19 * length)
     smallest = 1 - float(keys["spread"]) / 2
@@ -165,8 +198,13 @@ def add_base(dice, keys, ratio, length):
              "base-spacing-spread": number(apart)}
 
 
+def falls_through(keys, ratio):
+    """True if the smallest spheres fall through a base of large spheres."""
+    return dimension_of(keys) == 3 and ratio > MOST_RATIO * (1 - float(keys["spread"]) / 2)
+
+
 def drum_shape(dice, keys, ratio, area):
-    fill = dice.uniform(0.1, 0.5)
+    fill = dice.uniform(0.1, 0.5 if dimension_of(keys) == 2 else 0.3)  # so that spheres fit in before they fall
     diameter = min(max(math.sqrt(area / fill / (math.pi / 4)), 4 * ratio), 12 * ratio)
     keys |= {"lateral": "walls", "fill": number(fill), "drum-diameter": number(diameter * 1.001) + "dS"}
     return fill * math.pi / 4 * diameter**2, fill * diameter
@@ -175,17 +213,22 @@ def drum_shape(dice, keys, ratio, area):
 def column_shape(dice, keys, ratio, area):
     width = dice.log(1.2, 6) * ratio
     depth = min(max(area / width, 2 * ratio, 3), 30 * ratio)
-    length = max(width * dice.uniform(1.1, 5), 4 * ratio)
+    length = max(width * dice.uniform(1.1, 5), 4.01 * ratio)
     keys |= {"lateral": "walls", "column-width": number(width) + "dS", "depth": number(depth) + "dS",
              "length": number(length) + "dS"}
-    if dice.chance(0.3):
+    if dice.chance(0.3) or falls_through(keys, ratio):
         keys["base"] = "wall"
     return width * depth, depth
 
 
 def hopper_shape(dice, keys, ratio, area):
     area, depth = bed_shape(dice, keys, ratio, area)
-    keys |= {"lateral": "walls", "outlet": number(max(1, dice.uniform(0.1, 0.8) * area / depth)) + "dS"}
+    outlet = max(1, dice.uniform(0.1, 0.8) * area / depth)
+    if dimension_of(keys) == 3:
+        keys["outlet-shape"] = dice.pick("slot", "round")
+    if keys.get("outlet-shape") == "round":
+        outlet = min(outlet, 0.8 * length_of(keys, "width"))
+    keys |= {"lateral": "walls", "outlet": number(outlet) + "dS"}
     return area, depth
 
 
@@ -212,19 +255,21 @@ def add_law(dice, keys):
     keys["restitution"] = number(random_restitution(dice))
     if dice.chance(0.6):
         keys["contact-law"] = dice.pick("speculative", "touch", "centred", "predictive")
-    if dice.chance(0.1):
+    # The law by default is centred above a restitution of 0.9.
+    law = "centred" if float(keys["restitution"]) > 0.9 else "speculative"
+    if dice.chance(0.1) and keys.get("contact-law", law) == "speculative":
         keys["horizon"] = number(dice.log(1e-3, 1))
 
 
 def random_friction(dice):
-    kinds = {"none": 0, "usual": dice.uniform(0, 1), "any": dice.log(1e-3, 2), "extreme": dice.log(2, 1e3)}
-    return kinds[dice.weighted(none=12, usual=50, any=30, extreme=8)]
+    kinds = {"none": 0, "usual": dice.uniform(0, 1), "any": dice.log(1e-3, 2), "large": dice.log(1, 10),
+             "extreme": dice.log(10, 1e3)}
+    return kinds[dice.weighted(none=12, usual=35, any=15, large=30, extreme=8)]
 
 
-def random_restitution(dice, elastic=2):
-    """Elastic discs are rare, because their bed never comes to rest after its deposition; a restart may use them."""
-    kinds = {"none": 0, "elastic": 1, "usual": 0.25, "any": dice.uniform(0, 1)}
-    return kinds[dice.weighted(none=20, elastic=elastic, usual=20, any=60)]
+def random_restitution(dice):
+    kinds = {"none": 0, "usual": 0.25, "any": dice.uniform(0, 1), "large": dice.uniform(0.75, 1), "elastic": 1}
+    return kinds[dice.weighted(none=15, usual=15, any=30, large=30, elastic=10)]
 
 
 def random_slope(dice):
@@ -233,11 +278,12 @@ def random_slope(dice):
 
 
 def add_drive(dice, keys, units, depth):
-    keys["slope"] = number(random_slope(dice))
-    if keys["geometry"] != "shear" and dice.chance(0.12):
-        keys["slope-rate"] = number(dice.sign() * dice.log(0.01, 10) / units.time)
+    if keys["geometry"] != "shear":
+        keys["slope"] = number(random_slope(dice))
+        if dice.chance(0.12):
+            keys["slope-rate"] = number(dice.sign() * dice.log(0.01, 10) / units.time)
     if keys["geometry"] == "drum":
-        diameter = float(keys["drum-diameter"].removesuffix("dS"))
+        diameter = length_of(keys, "drum-diameter")
         froude = dice.log(1e-4, 10)
         rate = math.sqrt(2 * froude / diameter) / units.time
         keys["drum-rate"] = number(dice.pick(-1, 1, 1, 0) * rate)
@@ -251,9 +297,9 @@ def add_drive(dice, keys, units, depth):
 def add_plate(dice, keys, units, depth):
     keys["plate-speed"] = number(dice.pick(-1, 1, 1, 0) * dice.log(0.01, 30) * units.speed)
     if dice.chance(0.5):
-        length = float(keys["length"].removesuffix("dS"))
-        density = float(keys.get("density", 1))
-        keys["plate-mass"] = number(dice.log(0.03, 30) * density * length * depth * units.small**2)
+        volume = length_of(keys, "length") * depth * (length_of(keys, "width") if dimension_of(keys) == 3 else 1)
+        density = float(keys.get("density", 1)) * units.small ** dimension_of(keys)
+        keys["plate-mass"] = number(dice.log(0.03, 30) * density * volume)
 
 
 def random_shaking(dice, units):
@@ -265,11 +311,12 @@ def random_shaking(dice, units):
 
 def add_solver(dice, keys, units):
     """Draws the solver's settings. Returns the time step, s."""
-    keys["accuracy"] = dice.weighted(standard=50, draft=35, reference=15)
+    # Spheres with large friction take minutes at `reference`.
+    keys["accuracy"] = dice.weighted(standard=50, draft=35, reference=15 if dimension_of(keys) == 2 else 3)
     longest = STEPS[keys["accuracy"]] * units.time
     given = dice.chance(0.2)
     if given:
-        longest = dice.log(1e-3, LONGEST_STEP) * units.time
+        longest = dice.log(SHORTEST_STEP[dimension_of(keys)], LONGEST_STEP) * units.time
     if "shake-frequency" in keys:
         longest = min(longest, 1 / (20 * float(keys["shake-frequency"])))
     step = float(f"{longest * 0.99999:.6g}")
@@ -283,8 +330,12 @@ def add_solver(dice, keys, units):
         keys["tolerance"] = number(dice.log(1e-3, 2))
     if dice.chance(0.08):
         keys["min-sweeps"] = str(round(dice.log(1, 40)))
-    if dice.chance(0.08):
-        keys["max-sweeps"] = str(round(dice.log(40, 3000)))
+    # With large friction steps may not converge, above all between different masses, and a deposition takes minutes.
+    costly = float(keys["friction"]) > 10
+    if dimension_of(keys) == 3 or keys["accuracy"] == "reference":
+        costly |= float(keys["friction"]) > 1 and more_sweeps(keys) > 1.5
+    if costly or dice.chance(0.08):
+        keys["max-sweeps"] = str(round(dice.log(40, 200 if costly else 3000)))
     return step
 
 
@@ -292,7 +343,8 @@ def frames_of(dice, keys, grains):
     """Number of frames, and number of steps from one frame to the next. Most scenes are short, with a frame for every
     step, so that each step can be checked. The others are ten times as long, so that slow errors show."""
     slow = keys["accuracy"] == "reference" or float(keys.get("tolerance", 1)) < 0.1
-    work = 6e4 / grains / (4 if slow else 1)  # number of steps that take half a second
+    # Number of steps that take half a second.
+    work = STEPS_OF_A_GRAIN[dimension_of(keys)] / grains / more_sweeps(keys) / (4 if slow else 1)
     if dice.chance(0.65):
         return 2 * round(dice.log(100, max(min(1200, work), 110)) / 2), 1
     apart = min(100, max(4, round(10 * work / 200)))
@@ -301,12 +353,18 @@ def frames_of(dice, keys, grains):
     return 2 * round(dice.log(50, 150)), apart
 
 
+def more_sweeps(keys):
+    """Factor by which grseg-sim multiplies sweeps because masses of grains differ (sim/scene/keys/resolve.cpp)."""
+    masses = float(keys.get("density-ratio", 1)) * float(keys["size-ratio"]) ** dimension_of(keys)
+    return min(max(math.sqrt(masses / 16), math.sqrt(1 / masses), 1), 16)
+
+
 def random_changes(dice, keys, units, depth):
     """Keys for the second half of a run: one to three draws from the keys that a restart may change."""
     shaken = keys["geometry"] == "bed" and "base" not in keys
     options = [
         lambda: {"friction": number(random_friction(dice))},
-        lambda: {"restitution": number(random_restitution(dice, elastic=30))},
+        lambda: {"restitution": number(random_restitution(dice))},
         lambda: {"contact-law": dice.pick("speculative", "touch", "centred", "predictive")},
         lambda: {"accuracy": dice.pick("draft", "standard", "reference")},
         lambda: {"acceleration": dice.pick("on", "off")},
