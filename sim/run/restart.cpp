@@ -93,7 +93,7 @@ Scene scene_of(const std::string& text, const std::string& name, const po::varia
   }
   auto values = given;
   read_scene_text(text, name, set_again, values);
-  return resolve_scene(values);
+  return resolve_scene(values, given);
 }
 
 void require_same_bed(const Scene& before, const Scene& now)

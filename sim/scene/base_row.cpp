@@ -118,13 +118,7 @@ void resolve_base_row(Scene& scene, const KeyGiven& given)
   const bool free_to_choose = scene.geometry->shapes_base && scene.base == Scene::Base::grains;
   if (free_to_choose) check_room(scene);
   scene.base_spacing = mean_spacing(scene, scene.base_spacing);
-  const char* key = key_of_other_base(scene);
-  if (key == nullptr) return;
-  require(free_to_choose, key,
-          fmt::format("{} applies only to the grains under a bed; set geometry = bed and base = "
-                      "grains, or leave it out",
-                      key));
-  check_that_it_holds(scene, key);
+  if (const char* key = key_of_other_base(scene)) check_that_it_holds(scene, key);
 }
 
 void check_base_of_spheres(const Scene& scene)

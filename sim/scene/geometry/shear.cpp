@@ -40,8 +40,7 @@ void resolve_shear_cell(Scene& scene, const KeyGiven& given)
           "lateral is walls: a shear cell has no ends; set lateral = periodic");
   require(scene.base == Scene::Base::grains, "base",
           "base is wall: the plates of a shear cell are rough; set base = grains");
-  require(scene.slope_rate == 0, "slope-rate",
-          "slope-rate turns gravity, and a shear cell has no gravity; leave it out");
+  scene.slope = 0;  // there is no gravity
   // With this gravity, the pressure of the bed on its base is about plate-pressure.
   if (!given("gravity")) scene.gravity = scene.plate_pressure / (scene.density * scene.depth);
   require(

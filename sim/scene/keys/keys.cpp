@@ -7,6 +7,8 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace grseg {
 namespace {
 
@@ -44,23 +46,54 @@ auto of_solver(T SolverSettings::*member)
   };
 }
 
-/// Value of a key that applies only to discs, or only to spheres; in other scenes its text is
-/// empty.
-KeyValue of_dimension(int dimension, KeyValue value)
+using Conditions = std::vector<KeyCondition>;
+
+Conditions operator+(Conditions all, const Conditions& more)
 {
-  value.text = [dimension, text = value.text](const Scene& scene) {
-    return scene.dimension == dimension ? text(scene) : std::string();
-  };
-  return value;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
-KeyValue in_plane(const KeyValue& value)
+
+/// Condition that the scene has one of the geometries for which `is_one` is true.
+Conditions with_geometry(const std::function<bool(const Geometry&)>& is_one)
 {
-  return of_dimension(2, value);
+  std::vector<std::string> names;
+  for (const auto* geometry : geometries())
+    if (is_one(*geometry)) names.emplace_back(geometry->name);
+  auto words = fmt::format("geometry = {}", names.back());
+  if (names.size() > 1)
+    words = fmt::format("geometry = {} or {}", fmt::join(names.begin(), names.end() - 1, ", "),
+                        names.back());
+  return {{words, [is_one](const Scene& scene) { return is_one(*scene.geometry); }}};
 }
-KeyValue in_space(const KeyValue& value)
+
+Conditions with_geometry(const Geometry& one)
 {
-  return of_dimension(3, value);
+  return with_geometry([&one](const Geometry& geometry) { return &geometry == &one; });
 }
+
+Conditions with_dimension(int dimension)
+{
+  return {{fmt::format("dimension = {}", dimension),
+           [dimension](const Scene& scene) { return scene.dimension == dimension; }, true}};
+}
+
+/// Conditions of keys that do not act in every scene.
+struct When {
+  Conditions discs = with_dimension(2), spheres = with_dimension(3);
+  Conditions drum = with_geometry(drum_geometry), shear = with_geometry(shear_geometry),
+             column = with_geometry(column_geometry), hopper = with_geometry(hopper_geometry);
+  Conditions no_drum = with_geometry([](const Geometry& one) { return &one != &drum_geometry; });
+  Conditions gravity = with_geometry([](const Geometry& one) { return one.has_gravity; });
+  Conditions grains_at_base{
+      {"base = grains", [](const Scene& scene) { return scene.base == Scene::Base::grains; }}};
+  Conditions free_base =
+      with_geometry([](const Geometry& one) { return one.shapes_base; }) + grains_at_base;
+  Conditions shaken{
+      {"shake-amplitude above 0", [](const Scene& scene) { return scene.shake_amplitude > 0; }}};
+  Conditions speculative{{"contact-law = speculative",
+                          [](const Scene& scene) { return scene.law == ContactLaw::speculative; }}};
+};
 
 constexpr long most = 1000000000;
 
@@ -72,6 +105,7 @@ std::string set_by_accuracy(const char* help)
 // clang-format off
 std::vector<SceneKey> bed_keys()
 {
+  const When when;
   using enum KeyRole;
   using enum InParameters;
   return {
@@ -97,28 +131,29 @@ std::vector<SceneKey> bed_keys()
     {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
      geometry_help()},
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
-     "height of the deposited bed, within 2 %"},
+     "height of the deposited bed, within 2 %", when.no_drum},
     {"length", "35dL", length(&Scene::length, "4dL", "1e6dL"), bed, no,
-     "length of the cell along x; a drum has its diameter instead"},
-    {"dimension", "2", in_space(choice(&Scene::dimension, Words<int>{{"2", 2}, {"3", 3}})), bed, no,
-     "2: discs; 3: spheres, with densities in kg/m^3 and pressures in Pa"},
-    {"width", "10dL", in_space(length(&Scene::width, "4dL", "1e6dL")), bed, no,
-     "width of the cell along z, in three dimensions"},
-    {"sides", "periodic", in_space(choice(&Scene::sides, Words<Scene::Lateral>{
-         {"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}})), bed, no,
-     "walls at z = 0 and z = width, or a period (spheres only)"},
+     "length of the cell along x; a drum has its diameter instead", when.no_drum},
+    {"dimension", "2", choice(&Scene::dimension, Words<int>{{"2", 2}, {"3", 3}}), bed, no,
+     "2: discs; 3: spheres, with densities in kg/m^3 and pressures in Pa", when.spheres},
+    {"width", "10dL", length(&Scene::width, "4dL", "1e6dL"), bed, no,
+     "width of the cell along z, in three dimensions", when.spheres},
+    {"sides", "periodic", choice(&Scene::sides, Words<Scene::Lateral>{
+         {"periodic", Scene::Lateral::periodic}, {"walls", Scene::Lateral::walls}}), bed, no,
+     "walls at z = 0 and z = width, or a period (spheres only)", when.spheres},
   };
 }
 
 std::vector<SceneKey> flow_keys()
 {
+  const When when;
   using enum KeyRole;
   using enum InParameters;
   return {
     {"slope", "23", number(&Scene::slope, -90, 90, "ANGLE"), flow, yes,
-     "slope of the base at t = 0, degrees"},
+     "slope of the base at t = 0, degrees", when.gravity},
     {"slope-rate", "0", number(&Scene::slope_rate, -1e9, 1e9), flow, yes,
-     "rate at which the slope becomes steeper after t = 0, degrees/s"},
+     "rate at which the slope becomes steeper after t = 0, degrees/s", when.gravity},
     {"gravity", "9.8", number(&Scene::gravity, least_gravity, most_gravity), flow, no,
      "gravity, m/s^2. In a shear cell it acts during the deposition only; by default the pressure "
      "of the bed is then about plate-pressure"},
@@ -134,7 +169,7 @@ std::vector<SceneKey> flow_keys()
      "mid-step), centred (at the end of the step) or predictive (half a step later) (default: "
      "speculative; centred if restitution is above 0.9)"},
     {"horizon", "0.75", number(&Scene::horizon, 1e-3, 1), flow, yes,
-     "number of steps that the speculative law looks ahead"},
+     "number of steps that the speculative law looks ahead", when.speculative},
     {"rotation", "on", on_or_off(&Scene::rotation), bed, yes,
      "rotation of the grains"},
   };
@@ -142,6 +177,7 @@ std::vector<SceneKey> flow_keys()
 
 std::vector<SceneKey> base_keys()
 {
+  const When when;
   using enum KeyRole;
   using enum InParameters;
   using Base = Scene::Base;
@@ -152,55 +188,60 @@ std::vector<SceneKey> base_keys()
          {"grains", Base::grains}, {"wall", Base::wall}}), bed, no,
      "base under the bed: grains (fixed grains; of discs one row, by default touching large ones; "
      "of spheres interlocked lines of large ones) or wall (flat)"},
-    {"base-diameter", "1dL", in_plane(length(&Scene::base_diameter, "0.1dS", "10dL")), bed, yes,
-     "mean diameter of the discs in a bed's base"},
-    {"base-diameter-spread", "0", in_plane(number(&Scene::base_diameter_spread, 0, 1)), bed, yes,
-     "(d_max - d_min)/d of the discs in a bed's base, uniform; tops stay at one height"},
-    {"base-height-spread", "0", in_plane(length(&Scene::base_height_spread, "0", "10dL")), bed, yes,
+    {"base-diameter", "1dL", length(&Scene::base_diameter, "0.1dS", "10dL"), bed, yes,
+     "mean diameter of the discs in a bed's base", when.discs + when.free_base},
+    {"base-diameter-spread", "0", number(&Scene::base_diameter_spread, 0, 1), bed, yes,
+     "(d_max - d_min)/d of the discs in a bed's base, uniform; tops stay at one height",
+     when.discs + when.free_base},
+    {"base-height-spread", "0", length(&Scene::base_height_spread, "0", "10dL"), bed, yes,
      "range of the tops of the grains in a bed's base: each is lowered by a random distance from 0 "
-     "to this value"},
-    {"base-spacing", "", in_plane(length(&Scene::base_spacing, "0.1dS", "12.5dL")), bed, yes,
+     "to this value", when.discs + when.free_base},
+    {"base-spacing", "", length(&Scene::base_spacing, "0.1dS", "12.5dL"), bed, yes,
      "mean distance along x between centres of grains in a bed's base, enlarged until a whole "
-     "number fills the cell. Below base-diameter the grains overlap (default: base-diameter)"},
-    {"base-spacing-spread", "0", in_plane(number(&Scene::base_spacing_spread, 0, 1)), bed, yes,
-     "(max - min)/mean of the distances between centres in a bed's base, uniform"},
+     "number fills the cell. Below base-diameter the grains overlap (default: base-diameter)",
+     when.discs + when.free_base},
+    {"base-spacing-spread", "0", number(&Scene::base_spacing_spread, 0, 1), bed, yes,
+     "(max - min)/mean of the distances between centres in a bed's base, uniform",
+     when.discs + when.free_base},
     {"lateral", "periodic", choice(&Scene::lateral, Words<Lateral>{
          {"periodic", Lateral::periodic}, {"walls", Lateral::walls}}), bed, no,
      "ends of the cell along x"},
     {"origin", "top", choice(&Scene::origin, Words<Origin>{
          {"top", Origin::top}, {"centre", Origin::centre}}), bed, yes,
-     "place of y = 0: top of the highest base grain, or half a base-diameter below (centre)"},
+     "place of y = 0: top of the highest base grain, or half a base-diameter below (centre)",
+     when.no_drum + when.grains_at_base},
   };
 }
 
 std::vector<SceneKey> geometry_keys()
 {
+  const When when;
   using enum KeyRole;
   using enum InParameters;
   return {
     {"drum-diameter", "100dS", length(&Scene::drum_diameter, "1dS", "1e6dL"), bed, no,
-     "inner diameter of a drum; at least 4dL"},
+     "inner diameter of a drum; at least 4dL", when.drum},
     {"drum-rate", "0.5", number(&Scene::drum_rate, -1e6, 1e6), flow, no,
-     "rotation rate of a drum, rad/s, counter-clockwise"},
+     "rotation rate of a drum, rad/s, counter-clockwise", when.drum},
     {"fill", "0.4", number(&Scene::fill, 0.01, 0.5), bed, no,
-     "part of a drum's cross-section that the settled bed covers"},
+     "part of a drum's cross-section that the settled bed covers", when.drum},
     {"plate-speed", "1", number(&Scene::plate_speed, -1e6, 1e6), flow, no,
-     "velocity of a shear cell's upper plate along x, m/s"},
+     "velocity of a shear cell's upper plate along x, m/s", when.shear},
     {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
-     "pressure of a shear cell's plate on the grains, N/m (spheres: Pa)"},
+     "pressure of a shear cell's plate on the grains, N/m (spheres: Pa)", when.shear},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
-     "mass of a shear cell's plate, kg (default: mass of its grains)"},
+     "mass of a shear cell's plate, kg (default: mass of its grains)", when.shear},
     {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12m"), bed, no,
-     "width of a column before its gate opens; at least 1dL"},
+     "width of a column before its gate opens; at least 1dL", when.column},
     {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12m"), bed, no,
-     "width of a hopper's outlet; diameter of a round one"},
-    {"outlet-shape", "slot", in_space(choice(&Scene::outlet_shape, Words<Scene::Outlet>{
-         {"slot", Scene::Outlet::slot}, {"round", Scene::Outlet::round}})), bed, no,
-     "outlet of a hopper of spheres: a slot along z, or a round hole"},
+     "width of a hopper's outlet; diameter of a round one", when.hopper},
+    {"outlet-shape", "slot", choice(&Scene::outlet_shape, Words<Scene::Outlet>{
+         {"slot", Scene::Outlet::slot}, {"round", Scene::Outlet::round}}), bed, no,
+     "outlet of a hopper of spheres: a slot along z, or a round hole", when.hopper + when.spheres},
     {"shake-amplitude", "0", length(&Scene::shake_amplitude, "0", "1e12m"), flow, no,
-     "amplitude of the vertical shaking of a bed's base"},
+     "amplitude of the vertical shaking of a bed's base", when.free_base},
     {"shake-frequency", "0", number(&Scene::shake_frequency, 0, 1e9), flow, no,
-     "frequency of the vertical shaking of a bed's base, Hz"},
+     "frequency of the vertical shaking of a bed's base, Hz", when.free_base + when.shaken},
   };
 }
 
@@ -253,6 +294,20 @@ std::vector<SceneKey> run_keys()
 // clang-format on
 
 }  // namespace
+
+const KeyCondition* SceneKey::missing_condition(const Scene& scene) const
+{
+  const auto missing = std::find_if(conditions.begin(), conditions.end(),
+                                    [&](const auto& one) { return !one.holds(scene); });
+  return missing == conditions.end() ? nullptr : &*missing;
+}
+
+std::string SceneKey::text(const Scene& scene) const
+{
+  const bool hidden = std::any_of(conditions.begin(), conditions.end(),
+                                  [&](const auto& one) { return one.hides && !one.holds(scene); });
+  return hidden ? "" : value.text(scene);
+}
 
 std::string SceneKey::with_unit(const std::string& text) const
 {

@@ -41,6 +41,14 @@ enum class KeyRole {
 
 enum class InParameters { no, yes };
 
+/// Part of a scene without which a key has no effect.
+struct KeyCondition {
+  std::string words;  ///< such as "geometry = drum"
+  std::function<bool(const Scene&)> holds;
+  /// True: the text of a scene leaves the key out if the condition does not hold.
+  bool hides = false;
+};
+
 /// A key of scene files, which is also an option of grseg-sim.
 struct SceneKey {
   const char* name;
@@ -51,7 +59,12 @@ struct SceneKey {
   /// except KeyRole::machine are also in the text /parameters/scene.
   InParameters stored;
   std::string help;
+  std::vector<KeyCondition> conditions = {};  ///< the key has an effect if all of them hold
 
+  /// First condition that does not hold; null if the key has an effect.
+  const KeyCondition* missing_condition(const Scene& scene) const;
+  /// KeyValue::text of the scene; "" also if a condition hides the key.
+  std::string text(const Scene& scene) const;
   /// `text`, a result of KeyValue::text, as in a scene file: a length gets its "m".
   std::string with_unit(const std::string& text) const;
 };
@@ -65,8 +78,16 @@ boost::program_options::options_description scene_options();
 
 /// Scene with the values of the keys in `values`, which were parsed with scene_options(). Checks
 /// all ranges, and sets keys without a value if they follow from other keys (step and solver from
-/// accuracy, the mass of a plate). Throws SceneError, which names the wrong key.
-Scene resolve_scene(const boost::program_options::variables_map& values);
+/// accuracy, the mass of a plate). Throws SceneError, which names the wrong key. A key among `own`,
+/// the values that the user gave himself, is also wrong if it has no effect in this scene, unless it
+/// has the value that the scene has without it. The text of a stored scene states all keys, with or
+/// without effect.
+Scene resolve_scene(const boost::program_options::variables_map& values,
+                    const boost::program_options::variables_map& own);
+inline Scene resolve_scene(const boost::program_options::variables_map& own)
+{
+  return resolve_scene(own, own);
+}
 
 /// Contact law of scenes that do not name one: the speculative law would change the energy of a gas
 /// whose restitution is above 0.9.

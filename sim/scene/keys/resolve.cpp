@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "formats/cli/provenance.hpp"
 #include "sim/scene/base_row.hpp"
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
@@ -38,8 +39,16 @@ constexpr double most_sweeps_factor = 16;
 // of a gas (docs/studies/accuracy.md).
 constexpr double most_speculative_restitution = 0.9;
 
-void read_keys(const po::variables_map& values, Scene& scene)
+bool is_given(const po::variables_map& values, const char* key)
 {
+  return values.count(key) > 0 && !values[key].defaulted();
+}
+
+/// Scene with the value of every key that has one; keys that follow from others are not set yet,
+/// except the contact law.
+Scene stated(const po::variables_map& values)
+{
+  Scene scene;
   for (const auto& key : scene_keys()) {
     const auto& given = values[key.name];
     if (given.empty()) continue;  // it follows from other keys
@@ -49,6 +58,8 @@ void read_keys(const po::variables_map& values, Scene& scene)
   }
   scene.large_diameter = scene.small_diameter * scene.size_ratio;
   if (scene.threads == 0) scene.threads = omp_get_num_procs();
+  if (values["contact-law"].empty()) scene.law = usual_law(scene.restitution);
+  return scene;
 }
 
 double mass_of_plate(const Scene& scene)
@@ -65,8 +76,6 @@ double mass_of_plate(const Scene& scene)
 void check_shaking(const Scene& scene)
 {
   if (scene.shake_amplitude == 0) return;
-  require(scene.geometry->shapes_base && scene.base == Scene::Base::grains, "shake-amplitude",
-          "shake-amplitude moves the grains under a bed; set geometry = bed and base = grains");
   require(scene.shake_frequency > 0, "shake-frequency",
           "shake-frequency is 0 but shake-amplitude is not; set both");
 }
@@ -179,15 +188,49 @@ void check_turning(const Scene& scene)
                       turn, largest_turn));
 }
 
-/// Refuses keys of spheres for discs, and keys of discs for spheres: their text is empty.
-void check_dimension(const Scene& scene, const KeyGiven& given)
+Scene resolved(const po::variables_map& values)
 {
-  const std::string dimension = "dimension";
+  const KeyGiven given = [&](const char* key) { return is_given(values, key); };
+  Scene scene = stated(values);
+  if (scene.geometry->resolve) scene.geometry->resolve(scene, given);
+  if (scene.dimension == 2)
+    resolve_base_row(scene, given);
+  else
+    check_base_of_spheres(scene);
+  if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
+  check_shaking(scene);
+  resolve_accuracy(scene, given);
+  check_frames(scene);
+  check_turning(scene);
+  check_plate(scene);
+  return scene;
+}
+
+/// `values` with the defaults of `keys`.
+po::variables_map without(const std::vector<const SceneKey*>& keys, po::variables_map values)
+{
+  for (const auto* key : keys) {
+    values.erase(key->name);
+    if (!key->default_text.empty())
+      values.emplace(key->name, po::variable_value(key->default_text, true));
+  }
+  return values;
+}
+
+/// Throws SceneError for a key of `own` that has no effect, unless its value is the one that the
+/// scene has without it.
+void refuse_keys_without_effect(const po::variables_map& values, const po::variables_map& own)
+{
+  const auto scene = stated(values);
+  std::vector<const SceneKey*> idle;
   for (const auto& key : scene_keys())
-    require(key.name == dimension || !given(key.name) || !key.value.text(scene).empty(), key.name,
-            fmt::format("{} is a key of {} only; {}leave it out", key.name,
-                        scene.dimension == 2 ? "spheres" : "discs",
-                        scene.dimension == 2 ? "set dimension = 3, or " : ""));
+    if (is_given(own, key.name) && key.missing_condition(scene) != nullptr) idle.push_back(&key);
+  if (idle.empty()) return;
+  const auto others = resolved(without(idle, values));
+  for (const auto* key : idle)
+    require(same_setting(key->value.text(scene), key->value.text(others)), key->name,
+            fmt::format("{} has an effect only with {}; leave it out, or change the scene",
+                        key->name, key->missing_condition(scene)->words));
 }
 
 }  // namespace
@@ -197,27 +240,10 @@ ContactLaw usual_law(double restitution)
   return restitution > most_speculative_restitution ? ContactLaw::centred : ContactLaw::speculative;
 }
 
-Scene resolve_scene(const po::variables_map& values)
+Scene resolve_scene(const po::variables_map& values, const po::variables_map& own)
 {
-  const KeyGiven given = [&](const char* key) {
-    return values.count(key) > 0 && !values[key].defaulted();
-  };
-  Scene scene;
-  read_keys(values, scene);
-  check_dimension(scene, given);
-  if (scene.geometry->resolve) scene.geometry->resolve(scene, given);
-  if (scene.dimension == 2)
-    resolve_base_row(scene, given);
-  else
-    check_base_of_spheres(scene);
-  if (!given("plate-mass")) scene.plate_mass = mass_of_plate(scene);
-  if (!given("contact-law")) scene.law = usual_law(scene.restitution);
-  check_shaking(scene);
-  resolve_accuracy(scene, given);
-  check_frames(scene);
-  check_turning(scene);
-  check_plate(scene);
-  return scene;
+  refuse_keys_without_effect(values, own);
+  return resolved(values);
 }
 
 }  // namespace grseg

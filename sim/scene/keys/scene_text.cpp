@@ -44,6 +44,15 @@ std::string place_of(const std::string& path, const std::string& key)
   return path;
 }
 
+/// Place of the first line with a NUL byte, such as "file:12"; "" if there is none.
+std::string place_of_nul(const std::string& text, const std::string& name)
+{
+  const auto at = text.find('\0');
+  if (at == std::string::npos) return "";
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(at);
+  return fmt::format("{}:{}", name, 1 + std::count(text.begin(), end, '\n'));
+}
+
 /// Place of the first line that is neither 'key = value' nor a comment, such as "file:12".
 std::string place_of_bad_line(const std::string& text, const std::string& name)
 {
@@ -73,6 +82,9 @@ void read_keys(const std::string& text, const std::string& name,
                const std::function<std::string(const std::string&)>& place,
                const std::function<void(ParsedKeys&)>& change, po::variables_map& values)
 {
+  if (const auto line = place_of_nul(text, name); !line.empty())
+    throw FormatError(fmt::format(
+        "{}: contains a NUL byte, which no text has; save the file as plain text (UTF-8)", line));
   if (const auto word = placeholder_in(text); !word.empty())
     throw FormatError(fmt::format("{}: no key and no value may contain {}", name, word));
   const auto keys = scene_options();
@@ -116,7 +128,7 @@ std::string to_text(const Scene& scene)
   std::string text;
   for (const auto& key : scene_keys()) {
     if (key.role == KeyRole::machine) continue;
-    const auto value = key.value.text(scene);
+    const auto value = key.text(scene);
     if (!value.empty()) text += fmt::format("{} = {}\n", key.name, value);
   }
   return text;
@@ -126,13 +138,14 @@ Parameters to_parameters(const Scene& scene)
 {
   Parameters parameters;
   for (const auto& key : scene_keys()) {
-    if (key.stored == InParameters::no || key.value.text(scene).empty()) continue;
+    const auto text = key.text(scene);
+    if (key.stored == InParameters::no || text.empty()) continue;
     std::string name = key.name;
     std::replace(name.begin(), name.end(), '-', '_');
     if (key.value.number)
       parameters.numbers[name] = {key.value.number(scene)};
     else
-      parameters.texts[name] = key.value.text(scene);
+      parameters.texts[name] = text;
   }
   const auto gravity = gravity_of<2>(scene).start;
   auto& numbers = parameters.numbers["gravity"] = {gravity.x(), gravity.y()};
@@ -147,8 +160,8 @@ Parameters to_parameters(const Scene& scene)
 Scene without_round_off(Scene now, const Scene& before)
 {
   for (const auto& key : scene_keys()) {
-    const auto text = key.value.text(before);
-    if (key.value.text(now) != text && same_setting(key.value.text(now), text))
+    const auto text = key.text(before);
+    if (key.text(now) != text && same_setting(key.text(now), text))
       key.value.read(key.name, key.with_unit(text), now);
   }
   return now;
@@ -157,7 +170,7 @@ Scene without_round_off(Scene now, const Scene& before)
 std::string differing_key(const Scene& a, const Scene& b, KeyRole role)
 {
   for (const auto& key : scene_keys())
-    if (key.role == role && key.value.text(a) != key.value.text(b)) return key.name;
+    if (key.role == role && key.text(a) != key.text(b)) return key.name;
   return "";
 }
 

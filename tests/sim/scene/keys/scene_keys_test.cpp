@@ -2,8 +2,10 @@
 #include "formats/cli/bed.hpp"
 #include "formats/cli/tool.hpp"
 #include "formats/core/errors.hpp"
+#include "sim/run/restart.hpp"
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
+#include "tests/folder.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -159,12 +161,97 @@ TEST(Scene, NearlyElasticGrainsReboundInTheStepInWhichTheyMeet)
             ContactLaw::speculative);
 }
 
-TEST(Scene, KeysOfSpheresAreRefusedForDiscsAndKeysOfDiscsForSpheres)
+TEST(Scene, AKeyWithoutEffectIsRefusedWithWhatWouldGiveItOne)
 {
-  EXPECT_EQ(refused_key({"--sides", "walls"}), "sides");
-  EXPECT_EQ(refused_key({"--dimension", "2", "--width", "6dL"}), "width");
-  EXPECT_EQ(refused_key({"--dimension", "3", "--width", "6dL"}), "none");
-  EXPECT_EQ(refused_key({"--dimension", "3", "--base-spacing", "1dL"}), "base-spacing");
+  using Words = std::vector<std::string>;
+  for (const auto& [words, condition] :
+       {std::pair<Words, std::string>{{"--drum-rate", "3"}, "geometry = drum"},
+        {{"--geometry", "shear", "--slope", "10"}, "geometry = bed, drum, column or hopper"},
+        {{"--geometry", "drum", "--lateral", "walls", "--depth", "7dL"},
+         "geometry = bed, shear, column or hopper"},
+        {{"--shake-frequency", "3"}, "shake-amplitude above 0"},
+        {{"--base", "wall", "--shake-amplitude", "1mm"}, "base = grains"},
+        {{"--restitution", "1", "--horizon", "0.5"}, "contact-law = speculative"},
+        {{"--width", "6dL"}, "dimension = 3"},
+        {{"--dimension", "3", "--base-spacing", "1dL"}, "dimension = 2"}})
+    EXPECT_EQ(complaint_of<SceneError>([&] { scene_from(words); }),
+              words.end()[-2].substr(2) + " has an effect only with " + condition +
+                  "; leave it out, or change the scene");
+}
+
+TEST(Scene, AKeyWithoutEffectMayHaveTheValueThatTheSceneHasWithoutIt)
+{
+  EXPECT_EQ(refused_key({"--drum-rate", "0.5", "--shake-frequency", "0"}), "none");
+  EXPECT_EQ(refused_key({"--geometry", "shear", "--slope", "0"}), "none");
+  EXPECT_EQ(refused_key({"--geometry", "drum", "--lateral", "walls", "--drum-diameter", "40dL",
+                         "--length", "42dL", "--depth", "16dL"}),
+            "none");
+}
+
+/// Small scenes of all geometries.
+const std::vector<std::vector<std::string>> one_of_each{
+    {"--depth", "9dS"},
+    {"--base", "wall", "--large-grains", "2"},
+    {"--dimension", "3", "--contact-law", "touch"},
+    {"--geometry", "drum", "--lateral", "walls"},
+    {"--geometry", "shear"},
+    {"--geometry", "column", "--lateral", "walls"},
+    {"--geometry", "hopper", "--lateral", "walls"},
+    {"--geometry", "hopper", "--lateral", "walls", "--dimension", "3", "--outlet-shape", "round"}};
+
+TEST(Scene, ItsTextAsASceneFileIsAccepted)
+{
+  for (const auto& words : one_of_each) {
+    const auto scene = scene_from(words);
+    auto values = parse({});
+    read_scene_text(to_text(scene), "the scene's text", {}, values);
+    EXPECT_EQ(to_text(resolve_scene(values)), to_text(scene));
+  }
+}
+
+/// Text in which every key without effect has another value than `scene`, as an old file may.
+std::string with_other_idle_keys(const Scene& scene)
+{
+  const std::map<std::string, std::string> others{
+      {"depth", "20dS"},         {"length", "30dL"},      {"slope", "11"},
+      {"slope-rate", "0.1"},     {"horizon", "0.4"},      {"origin", "centre"},
+      {"drum-diameter", "90dS"}, {"drum-rate", "2"},      {"fill", "0.3"},
+      {"plate-speed", "3"},      {"plate-pressure", "7"}, {"plate-mass", "4"},
+      {"column-width", "19dS"},  {"outlet", "9dS"},       {"shake-frequency", "12"}};
+  std::istringstream lines(to_text(scene));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    const auto name = line.substr(0, line.find(' '));
+    for (const auto& key : scene_keys())
+      if (key.name == name && others.contains(name) && key.missing_condition(scene) != nullptr) {
+        Scene other = scene;
+        key.value.read(name, others.at(name), other);
+        line = name + " = " + key.value.text(other);
+      }
+    text += line + '\n';
+  }
+  return text;
+}
+
+// Files and checkpoints of version 1.0 may state any value of such keys.
+TEST(Scene, AStoredSceneMayStateKeysWithoutEffectAndTheyHaveNone)
+{
+  for (const auto& words : one_of_each) {
+    const auto scene = scene_from(words);
+    const auto text = with_other_idle_keys(scene);
+    EXPECT_NE(text, to_text(scene));
+    const auto other = scene_of(text, "an old file");
+    EXPECT_EQ(gravity_of<2>(other).at(3), gravity_of<2>(scene).at(3));
+    EXPECT_EQ(bed_area(other), bed_area(scene));
+    EXPECT_EQ(other.step, scene.step);
+    EXPECT_EQ(law_parameters(other).margin, law_parameters(scene).margin);
+    const auto all = scene.geometry->boundaries(scene), others = other.geometry->boundaries(other);
+    EXPECT_EQ(others.position, all.position);
+    EXPECT_EQ(others.radius, all.radius);
+    EXPECT_EQ(others.walls.size(), all.walls.size());
+    EXPECT_EQ(others.top, all.top);
+    EXPECT_EQ(moves_boundaries(other), moves_boundaries(scene));
+  }
 }
 
 TEST(Scene, BaseAndOrderOfTheDepositionAreStored)
@@ -270,6 +357,23 @@ TEST_F(SceneFile, APlaceholderOfTheParserIsRefused)
     EXPECT_NE(complaint(text).find("no key and no value may contain %"), std::string::npos) << text;
 }
 
+// "slope = 2", NUL, "1" would be a slope of 2 degrees.
+TEST_F(SceneFile, ANulByteIsRefusedWithItsLine)
+{
+  const std::string text("slope = 23\nfriction = 0.5\nslope = 2\0001\n", 38);
+  EXPECT_EQ(
+      complaint(text),
+      path + ":3: contains a NUL byte, which no text has; save the file as plain text (UTF-8)");
+}
+
+TEST_F(SceneFile, AKeyWithoutEffectIsNamedWithItsLine)
+{
+  EXPECT_EQ(complaint("# a chute\nfill = 0.3\n"),
+            path +
+                ":2: fill has an effect only with geometry = drum; leave it out, or change the "
+                "scene");
+}
+
 TEST_F(SceneFile, AValueThatIsNotANumberIsNamedWithItsLine)
 {
   EXPECT_EQ(complaint("# a chute\nslope = steep\n"), path + ":2: slope: 'steep' is not a number");
@@ -329,14 +433,21 @@ std::string reference_of_keys()
          "Each key is a line `key = value` of a scene file and an option `--key value` of\n"
          "`grseg-sim`; the command line wins. Lengths carry a unit: `5mm`, `2cm`, `0.3m`,\n"
          "`60dS`, `35dL` (nominal diameters of the small and large grains). \"Restart\" says\n"
-         "whether `--restart` may change the key. The table is that of `sim/scene/keys/keys.cpp`;\n"
-         "a test keeps this page equal to it.\n\n"
-         "| key | default | values | restart | meaning |\n| --- | --- | --- | --- | --- |\n";
+         "whether `--restart` may change the key. \"Acts\" says where the key has an effect, if not\n"
+         "everywhere; elsewhere another value than the default is refused. The table is that of\n"
+         "`sim/scene/keys/keys.cpp`; a test keeps this page equal to it.\n\n"
+         "| key | default | values | restart | acts | meaning |\n"
+         "| --- | --- | --- | --- | --- | --- |\n";
+  const auto acts = [](const SceneKey& key) {
+    std::string all;
+    for (const auto& condition : key.conditions) all += (all.empty() ? "" : ", ") + condition.words;
+    return all;
+  };
   for (const auto& key : scene_keys())
     page << "| `" << key.name << "` | "
          << (key.default_text.empty() ? "" : "`" + key.default_text + "`") << " | "
          << key.value.kind << ": " << key.value.allowed << " | " << restart.at(key.role) << " | "
-         << key.help << " |\n";
+         << acts(key) << " | " << key.help << " |\n";
   return page.str();
 }
 
