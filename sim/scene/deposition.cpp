@@ -21,7 +21,10 @@ namespace {
 constexpr double depth_tolerance = 0.02;
 // Solid fraction of a deposit of discs, and of spheres, for the first attempt.
 constexpr double usual_solid_fraction = 0.81, usual_of_spheres = 0.61;
+// Number of attempts at a bed of the right depth. The height of a bed of a few grains is random, but
+// attempts cost little: they go on until so many grains have been deposited.
 constexpr int most_attempts = 20;
+constexpr std::size_t most_deposited = 10000;
 constexpr double most_growth = 2;  // of the volume, from one attempt to the next
 
 /// Grain at its place above the base, before it falls.
@@ -277,7 +280,7 @@ struct Looks {
   std::int64_t every;  // steps from check to check
   double first;        // s, time of the first check, so that the free fall is not taken for rest
   double impatient;    // s, time from which on grains are slowed down
-  double last;         // s, time of the last check
+  double patience;  // s, time that slowed grains have to come to rest, after the highest has landed
 };
 
 Looks looks_of(const Scene& scene)
@@ -285,7 +288,7 @@ Looks looks_of(const Scene& scene)
   const double fall = std::sqrt(2 * scene.depth / scene.gravity);
   const double between = 2 * std::sqrt(scene.small_diameter / scene.gravity);
   return {static_cast<std::int64_t>(std::ceil(between / scene.step)),
-          std::sqrt(2 * 0.2 * scene.depth / scene.gravity), 10 * fall, 20 * fall};
+          std::sqrt(2 * 0.2 * scene.depth / scene.gravity), 10 * fall, 10 * fall};
 }
 
 template <int D>
@@ -298,7 +301,8 @@ void set_restitution(double restitution, Simulation<D>& simulation)
 }
 
 /// If a check is due after `steps` steps and later than Looks::impatient, sets restitution to 0,
-/// halves the velocities of mobile grains and returns true.
+/// halves the velocities of mobile grains and returns true. What falls goes on falling, so that
+/// grains that were thrown up land in time.
 template <int D>
 bool slow_down(Simulation<D>& simulation, std::int64_t steps, const Scene& scene,
                const Looks& looks)
@@ -307,21 +311,36 @@ bool slow_down(Simulation<D>& simulation, std::int64_t steps, const Scene& scene
     return false;
   set_restitution(0, simulation);
   const auto& grains = simulation.world().grains;
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (!grains.fixed[g])
-      simulation.set_velocity(g, simulation.velocity(g) / 2, simulation.angular_velocity(g) / 2);
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains.fixed[g]) continue;
+    Vector<D> velocity = simulation.velocity(g) / 2;
+    if (velocity.y() < 0) velocity.y() *= 2;
+    simulation.set_velocity(g, velocity, simulation.angular_velocity(g) / 2);
+  }
   return true;
 }
 
-/// Lets the bed fall until it rests; returns the number of steps.
+/// Time in which the highest grain would fall to y = 0, s.
+template <int D>
+double fall_of_highest(const Simulation<D>& simulation, const Scene& scene)
+{
+  double highest = 0;
+  for (std::size_t g = 0; g < simulation.world().grains.size(); ++g)
+    highest = std::max(highest, simulation.position(g).y());
+  return std::sqrt(2 * highest / scene.gravity);
+}
+
+/// Lets the bed fall until it rests; returns the number of steps. Throws RunError if it still moves
+/// after its grains were slowed down.
 template <int D>
 std::int64_t settle(Simulation<D>& simulation, const Scene& scene, const DepositionHooks<D>& hooks)
 {
   const double at_rest =
       2e-3 * mobile_mass(simulation.world().grains) * scene.gravity * scene.small_diameter;
   const auto looks = looks_of(scene);
-  double energy = 0;
-  while (simulation.time() < looks.last) {
+  double energy = 0, last = looks.impatient + looks.patience;
+  bool is_slowed = false;
+  while (simulation.time() < last) {
     for (std::int64_t k = 0; k < looks.every; ++k) {
       simulation.advance();
       if (hooks.each_step) hooks.each_step(simulation.time());
@@ -331,14 +350,16 @@ std::int64_t settle(Simulation<D>& simulation, const Scene& scene, const Deposit
       set_restitution(scene.restitution, simulation);
       return simulation.steps_done();
     }
-    if (slow_down(simulation, simulation.steps_done(), scene, looks) && hooks.slowed)
-      hooks.slowed(simulation.time());
+    if (!slow_down(simulation, simulation.steps_done(), scene, looks)) continue;
+    if (!is_slowed) last = simulation.time() + fall_of_highest(simulation, scene) + looks.patience;
+    is_slowed = true;
+    if (hooks.slowed) hooks.slowed(simulation.time());
   }
   throw RunError(fmt::format(
       "the bed has not come to rest {:.3g} s after its release, although its grains were slowed "
       "down: its kinetic energy is {:.2g} times the limit for rest; choose a larger min-sweeps, "
       "now {}, or a smaller step",
-      looks.last, energy / at_rest, scene.solver.min_sweeps));
+      simulation.time(), energy / at_rest, scene.solver.min_sweeps));
 }
 
 /// Repeats a deposition of `steps` steps, which end at time 0, and calls hooks.record.
@@ -410,8 +431,11 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
   // Not seeded again in each attempt: the height of a shallow bed varies by more than 2 %, so each
   // attempt needs other random numbers.
   RandomNumbers random(scene.seed);
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  int attempts = 0;
+  for (std::size_t deposited = 0; attempts < most_attempts || deposited < most_deposited;
+       ++attempts) {
     auto packing = loose_packing(scene, volume, hooks.layered, random);
+    deposited += packing.grains.size();
     set_falling(packing, scene, random);
     auto simulation = simulation_of<D>(packing, scene);
     const auto start = simulation;
@@ -426,12 +450,13 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
       simulation.set_clock(0);
       return simulation;
     }
-    volume *= height > 0 ? std::min(scene.depth / height, most_growth) : most_growth;
+    volume *=
+        height > 0 ? std::clamp(scene.depth / height, 1 / most_growth, most_growth) : most_growth;
   }
   throw RunError(fmt::format(
       "no bed of depth {:.4g} m could be deposited in {} attempts; is it only a few grains deep, or "
       "do its large grains alone fill more?",
-      scene.depth, most_attempts));
+      scene.depth, attempts));
 }
 
 template void set_conditions(World<2>&, const Scene&);
