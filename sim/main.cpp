@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/output.hpp"
 #include "formats/cli/tool.hpp"
+#include "sim/run/earlier_run.hpp"
 #include "sim/run/expected_cost.hpp"
 #include "sim/run/run.hpp"
 #include "sim/run/run_files.hpp"
@@ -126,7 +127,7 @@ int main(int argc, char** argv)
     if (run.output.empty() && !run.estimate)
       throw UsageError("name the trajectory to write: -o run.h5");
     if (!inputs.empty()) run.scene_file = inputs[0];
-    if (run.continues && holds_something(run.checkpoint)) run.restart = run.checkpoint;
+    if (run.continues) run.restart = checkpoint_of_earlier_run(run);
     if (run.restart.empty()) return begin(resolve_scene(inputs[0], given), run);
     const auto checkpoint = read_checkpoint(run.restart);
     const auto& text = std::visit(

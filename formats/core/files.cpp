@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +18,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -43,6 +46,16 @@ int rename_unless_taken(const std::string& from, const std::string& to)
   if (link(from.c_str(), to.c_str()) != 0) return errno;
   unlink(from.c_str());
   return 0;
+}
+
+/// True if `digits` is the number of a process that has ended, or of this process.
+bool is_of_ended_process(const std::string& digits)
+{
+  pid_t process = 0;
+  const auto* last = digits.data() + digits.size();
+  const auto [end, wrong] = std::from_chars(digits.data(), last, process);
+  if (wrong != std::errc() || end != last || process <= 0) return false;
+  return process == getpid() || (kill(process, 0) != 0 && errno == ESRCH);
 }
 
 /// True if the file `path` lies in `folder` or in one of its subfolders.
@@ -139,6 +152,22 @@ std::string reason(int error)
 std::string temporary_path(const std::string& path)
 {
   return fmt::format("{}.tmp.{}", path, getpid());
+}
+
+void remove_temporaries(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  const fs::path whole(path);
+  const auto begin = whole.filename().string() + ".tmp.";
+  const auto folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const auto name = at->path().filename().string();
+    if (name.starts_with(begin) && is_of_ended_process(name.substr(begin.size())))
+      left.push_back(at->path());
+  }
+  for (const auto& file : left) fs::remove(file, error);
 }
 
 namespace {

@@ -41,6 +41,11 @@ std::string reason(int error);
 /// Temporary name PATH.tmp.PROCESS, which no other program uses.
 std::string temporary_path(const std::string& path);
 
+/// Removes the files that processes which have ended left as temporary_path(path). Only the one
+/// writer of `path` (OutputLock) may call it, before it writes: the processes of other computers
+/// look as if they had ended.
+void remove_temporaries(const std::string& path);
+
 /// Creates or replaces the file `path` with `content`. Throws RunError on failure; its message
 /// calls the file `name`.
 void write_file(const std::string& path, std::string_view content, const std::string& name);

@@ -112,6 +112,11 @@ class HeadReader {
   void read_offset()
   {
     const auto entries = open("/grseg/contacts/offset", H5T_INTEGER, 1).dims()[0];
+    // A run that was killed before it committed anything has not even the first entry.
+    if (entries == 0 && open("/grseg/digest", H5T_INTEGER, 1).dims()[0] == 0) {
+      run_.offset = {0};
+      return;
+    }
     if (entries < 1 || entries > most_frames)
       run_.fail("/grseg/contacts/offset has an impossible length");
     run_.offset = column<std::uint64_t>("/grseg/contacts/offset", entries);

@@ -5,7 +5,7 @@
 #include "formats/cli/progress.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
-#include "formats/trajectory/reader.hpp"
+#include "sim/run/earlier_run.hpp"
 #include "sim/run/expected_cost.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/run_files.hpp"
@@ -196,19 +196,6 @@ void announce(const Scene& scene, double begin, const RunOptions& options)
   if (!options.force) require_room(cost, options.output);
 }
 
-/// True if `output` contains the frames that `checkpoint` counts, or if its frames are the first
-/// ones in output.part, as after an interrupted prolongation.
-bool begins_the_run(const std::string& output, const CheckpointHead& checkpoint)
-{
-  if (!holds_something(output)) return false;
-  const TrajectoryReader run(output);
-  if (run.size() == checkpoint.trajectory.frames)
-    return run.digest() == checkpoint.trajectory.digest;
-  if (run.size() == 0 || !holds_something(part_of(output))) return false;
-  const TrajectoryReader longer(part_of(output));
-  return run.size() < longer.size() && longer.digests()[run.size() - 1] == run.digest();
-}
-
 /// Remarks on a deposition, for the user.
 struct DepositionRemarks {
   double slowed_from = 0;  // s, time from which grains were slowed down; 0: they were not
@@ -254,13 +241,16 @@ template <int D>
 void simulate_in(const Scene& scene, const RunOptions& options)
 {
   const auto part = part_of(options.output);
+  require_no_output(options);
   check_outputs(options);
   const RunLocks locks(options);
-  check_output(part, options.overwrite, {});
+  const bool again = begins_again(scene, options);
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen();
 
+  if (again && !options.quiet)
+    tell(fmt::format("grseg-sim: begins again, because {} has no frame of the flow\n", part));
   announce(scene, 0, options);
   DepositionRemarks remarks;
   const auto deposited = deposit_visibly<D>(scene, options, remarks);
@@ -281,25 +271,30 @@ void resume_in(const Checkpoint<D>& checkpoint, const Scene& given, RunOptions o
   const auto part = part_of(options.output);
   const auto before = scene_of(checkpoint.scene, options.restart);
   const auto scene = without_round_off(given, before);
+  if (options.continues) require_same_run(before, scene, options);
   require_same_bed(before, scene);
   const bool perturbed = options.perturbation.size > 0;
   const bool unchanged = !perturbed && to_text(scene) == to_text(before);
+  const bool same_run = unchanged || (options.continues && same_steps(before, scene));
   // A finished run may be replaced by its prolongation, which contains all of its frames.
-  const bool is_begun = options.continues && begins_the_run(options.output, checkpoint);
-  const bool prolongs = is_begun && !perturbed && !unchanged && same_steps(before, scene);
+  const bool is_begun = options.continues && same_run && begins_the_run(options.output, checkpoint);
   options.overwrite = options.overwrite || is_begun;
   check_outputs(options);
   const RunLocks locks(options);
-  const bool in_place = prolongs || (unchanged && holds_something(part));
+  const bool has_part = is_continued(part, checkpoint);
+  const bool in_place = same_run && (has_part || is_begun);
   auto simulation = restored_simulation<D>(checkpoint, before, scene, options.perturbation);
-  if (!in_place && simulation.steps_done() >= scene.steps_in_all())
+  if (!(in_place && unchanged) && simulation.steps_done() >= scene.steps_in_all())
     throw UsageError(
         fmt::format("{} is at t = {:g} s, and the run ends at {:g} s; choose a larger --duration",
                     options.restart, simulation.time(), scene.duration));
-  if (!in_place && holds_something(part)) check_output(part, options.overwrite, {});
+  if (!in_place) begins_again(scene, options);
   require_writable(part);
   const RemoveAtEnd clean_up(part, RemoveAtEnd::If::empty);
   listen();
+  if (!options.quiet)
+    tell(fmt::format("grseg-sim: continues {} from t = {:g} s\n", options.restart,
+                     simulation.time()));
   announce(scene, simulation.time(), options);
 
   const auto history = fmt::format("{}\n{} (from t = {:g} s)", checkpoint.history,
@@ -313,7 +308,7 @@ void resume_in(const Checkpoint<D>& checkpoint, const Scene& given, RunOptions o
   const auto parameters = provenance_of_restart(scene, options, simulation.time(), history);
   Run<D> run{simulation,
              in_place ? truncate_to_checkpoint(
-                            {prolongs ? options.output : part, part, to_text(scene), history},
+                            {has_part ? part : options.output, part, to_text(scene), history},
                             checkpoint, options.restart, storage_while_running(scene))
                       : new_trajectory(scene, simulation, parameters, part),
              progress, checkpoint.deposited_height, history};

@@ -31,15 +31,18 @@ struct RunOptions {
 /// written to /parameters.
 ///
 /// Checkpoints are written at the beginning, at the first frame after every `checkpoint_every`
-/// seconds, on a signal and at the end.
+/// seconds, on a signal and at the end. None is written during the deposition: it is repeated bit
+/// for bit by the same command, which therefore replaces an output.part that has no frame of the
+/// flow (begins_again(), earlier_run.hpp).
 void simulate(const Scene& scene, const RunOptions& options);
 
 /// Continues `checkpoint` with the scene `given`, which must have the same bed. If the scene is
 /// unchanged and output.part belongs to the same run, frames after the checkpoint are removed from
 /// output.part, and the result is bitwise equal to an uninterrupted run; if it belongs to another
-/// run, throws UsageError. If `options.continues` and only the duration differs, a finished output
-/// is replaced by a file with its frames and the new ones. In all other cases a new trajectory
-/// begins with the frames after the checkpoint.
+/// run, throws UsageError. If `options.continues` and only the duration differs, the same holds, and
+/// a finished output is replaced by a file with its frames and the new ones; if another key differs,
+/// throws UsageError. In all other cases a new trajectory begins with the frames after the
+/// checkpoint.
 void resume(const AnyCheckpoint& checkpoint, const Scene& given, const RunOptions& options);
 
 }  // namespace grseg

@@ -26,6 +26,12 @@ bool is_one_name(const std::string& a, const std::string& b)
   return same_file(a, b) || whole(a) == whole(b);
 }
 
+void remove_left_over(const std::string& path)
+{
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+}
+
 }  // namespace
 
 std::string part_of(const std::string& path)
@@ -44,22 +50,24 @@ void check_outputs(const RunOptions& options)
 {
   const std::vector<std::string> inputs{options.scene_file, options.restart};
   check_output(options.output, options.overwrite, inputs);
-  refuse_input_as_output(part_of(options.output), inputs);
+  const auto part = part_of(options.output);
+  for (const auto& temporary : {part, part_of(part)}) refuse_input_as_output(temporary, inputs);
   const auto& checkpoint = options.checkpoint;
   if (checkpoint.empty()) return;
-  for (const auto& of_trajectory : {options.output, part_of(options.output)})
+  for (const auto& of_trajectory : {options.output, part})
     for (const auto& own : {checkpoint, part_of(checkpoint), previous_of(checkpoint)})
       if (is_one_name(own, of_trajectory))
         throw UsageError(
             "checkpoint and trajectory cannot be the same file; choose another name for "
             "--checkpoint");
   for (const auto& own : {checkpoint, previous_of(checkpoint)}) {
+    if (options.continues && !options.restart.empty()) break;
     if (same_file(checkpoint, options.restart)) break;
-    if (!options.overwrite && holds_something(own) && holds_something(part_of(options.output)))
+    if (!options.overwrite && holds_something(own) && holds_something(part))
       throw UsageError(fmt::format(
           "{} and {} belong to an interrupted run: --continue continues it, --overwrite begins "
           "again",
-          own, part_of(options.output)));
+          own, part));
     if (!same_file(own, options.restart)) check_output(own, options.overwrite, inputs);
   }
   refuse_input_as_output(part_of(checkpoint), inputs);
@@ -67,9 +75,14 @@ void check_outputs(const RunOptions& options)
 
 RunLocks::RunLocks(const RunOptions& options) : trajectory_(options.output)
 {
+  const auto trajectory = part_of(options.output), copy = part_of(trajectory);
+  for (const auto& path : {options.output, trajectory, copy}) remove_temporaries(path);
+  remove_left_over(copy);
   if (options.checkpoint.empty()) return;
   checkpoint_.emplace(options.checkpoint);
   const auto part = part_of(options.checkpoint);
+  remove_temporaries(previous_of(options.checkpoint));
+  remove_left_over(part);
   const RemoveAtEnd trial(part, RemoveAtEnd::If::empty);
   require_writable(part);
 }
@@ -115,7 +128,8 @@ TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const Checkpoint
   const RemoveAtEnd clean_up(copy);
   try {
     const TrajectoryReader run(to.from);
-    require(run.parameters().text("scene") == checkpoint.scene &&
+    const auto scene = run.parameters().text("scene");
+    require((scene == checkpoint.scene || scene == to.scene) &&
             run.grains().radius == checkpoint.grains.radius &&
             run.size() >= checkpoint.trajectory.frames);
     auto parameters = run.parameters();

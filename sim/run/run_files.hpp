@@ -23,8 +23,9 @@ std::string previous_of(const std::string& path);
 /// continues may always be replaced.
 void check_outputs(const RunOptions& options);
 
-/// Locks that prevent other runs from writing the trajectory and the checkpoint of this run. Throws
-/// UsageError if another run has locked them, RunError if a checkpoint cannot be written.
+/// Locks that prevent other runs from writing the trajectory and the checkpoint of this run. Removes
+/// the temporary files of earlier runs that were killed. Throws UsageError if another run has locked
+/// the files, RunError if a checkpoint cannot be written.
 class RunLocks {
  public:
   explicit RunLocks(const RunOptions& options);
@@ -56,7 +57,8 @@ struct Continuation {
 /// counts. These frames are copied to a new file, not cut in place: copying checks their digests
 /// and omits anything damaged by a kill, and to.part is unchanged until the copy is renamed to it.
 /// Throws UsageError if to.from does not belong to the run of `checkpoint`, FormatError if it
-/// cannot be read.
+/// cannot be read. It may state the scene to.scene, which a prolongation has written that was killed
+/// before its first checkpoint.
 TrajectoryWriter truncate_to_checkpoint(const Continuation& to, const CheckpointHead& checkpoint,
                                         const std::string& name, const StorageSettings& storage);
 

@@ -61,18 +61,55 @@ before=$(cksum on.h5)
 # shellcheck disable=SC2086
 $bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 2>words
 grep -q '^grseg-sim: on.h5 is finished$' words && [ "$(cksum on.h5)" = "$before" ] || fail "a finished run: $(cat words)"
-for other in "--seed 2" "--slope 20"; do
-  # shellcheck disable=SC2086
-  if $bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 $other 2>words; then
-    fail "a finished run of another scene ($other): $(cat words)"
-  fi
-  [ "$(cksum on.h5)" = "$before" ] || fail "a finished run was changed by another scene ($other)"
-done
+# A finished run of another scene is not replaced, whether the duration changes as well or not.
+other="on.chk is of a run in which KEY: give this value to continue it, or choose other names for --output and --checkpoint to begin another run"
+# shellcheck disable=SC2086
+refused 2 "$(echo "$other" | sed 's/KEY/seed is 1/')" $chute --duration 10 --seed 2 --checkpoint on.chk --continue -o on.h5
+# shellcheck disable=SC2086
+refused 2 "$(echo "$other" | sed 's/KEY/slope is 23/'); --restart on.chk with another --output, instead of --continue, continues with the change" \
+  $chute --duration 12 --slope 20 --checkpoint on.chk --continue -o on.h5
+[ "$(cksum on.h5)" = "$before" ] || fail "another scene changed a finished run"
+mv on.chk away.chk
+rm on_prev.chk
+# shellcheck disable=SC2086
+refused 2 "on.h5 exists, but not its checkpoint on.chk, from which it could be continued: name it with --checkpoint, or choose another name for --output" \
+  $chute --duration 10 --checkpoint on.chk --continue -o on.h5
 # shellcheck disable=SC2086
 refused 2 "--estimate covers a whole run; leave out --restart and --continue" \
   $chute --duration 10 --checkpoint on.chk --continue --estimate -o on.h5
 # shellcheck disable=SC2086
 refused 2 "--continue needs --checkpoint FILE, and cannot be combined with --restart" $chute --continue -o other.h5
+
+# Killed while it records its deposition, before the first checkpoint, it begins again, but not with
+# another key; and it leaves no other file.
+early="$1/sim/scenes/chute.ini --depth 30dS --length 20dL --phi-large 0.5 --keep-deposition --frame-interval 0.01 --duration 0.05"
+# shellcheck disable=SC2086
+$bin/grseg-sim --quiet $early -o undisturbed.h5
+# shellcheck disable=SC2086
+"$bin/grseg-sim" --quiet $early --checkpoint early.chk --continue -o early.h5 &
+while [ ! -s early.h5.part ]; do sleep 0.01; done
+kill -9 $!
+wait $! || true
+[ ! -e early.chk ] || fail "the kill came too late"
+before=$(cksum early.h5.part)
+# shellcheck disable=SC2086
+refused 2 "early.h5.part is of another scene, in which slope is 23: choose another name for --output, or give this value to begin that run again" \
+  $early --checkpoint early.chk --continue -o early.h5 --slope 20
+[ "$(cksum early.h5.part)" = "$before" ] || fail "another scene changed the deposition of a killed run"
+# shellcheck disable=SC2086
+$bin/grseg-sim $early --checkpoint early.chk --continue -o early.h5 2>words
+grep -q '^grseg-sim: begins again, because early.h5.part has no frame of the flow$' words || fail "$(cat words)"
+content undisturbed.h5 >undisturbed
+content early.h5 | cmp - undisturbed || fail "a run that began again is another"
+case $(echo early*) in "early.chk early.h5" | "early.chk early.h5 early_prev.chk") ;; *) fail "left behind: $(echo early*)" ;; esac
+
+# With another duration an interrupted run goes on, and says from where.
+# shellcheck disable=SC2086
+stopped KILL other.chk 0.05 $chute --duration 20 --checkpoint-every 0 --continue -o other.h5
+# shellcheck disable=SC2086
+$bin/grseg-sim $chute --duration 10 --checkpoint other.chk --continue -o other.h5 2>words
+grep -q '^grseg-sim: continues other.chk from t = [0-9.]* s$' words || fail "$(cat words)"
+content other.h5 | cmp - whole || fail "another duration changed the run"
 
 # Prolonged, it is the run that was longer from the beginning; killed on the way, nothing of it is lost.
 # shellcheck disable=SC2086

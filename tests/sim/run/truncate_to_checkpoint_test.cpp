@@ -119,11 +119,19 @@ TEST_F(CutBack, APartWithFewerFramesThanTheCheckpointIsRefused)
   expect_refusal();
 }
 
+TEST_F(CutBack, APartOfAProlongationThatWasKilledBeforeItsFirstCheckpointIsContinued)
+{
+  const auto longer = checkpoint.scene;
+  checkpoint.scene = to_text(small_chute::scene({"--duration", "3"}));
+  EXPECT_EQ(truncate_to_checkpoint({part, part, longer, ""}, checkpoint, "run.chk", {}).frames(),
+            3u);
+}
+
 TEST_F(CutBack, APartOfAnotherSceneOrOfOtherGrainsIsRefused)
 {
   const auto own = checkpoint;
   checkpoint.trajectory = {};  // before its first frame: scene and grains
-  checkpoint.scene += "slope = 21\n";
+  checkpoint.scene = to_text(small_chute::scene({"--slope", "21"}));
   expect_refusal();
   checkpoint.scene = own.scene;
   checkpoint.grains.radius[0] *= 2;

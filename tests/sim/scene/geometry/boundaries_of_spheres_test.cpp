@@ -122,8 +122,11 @@ TEST(BoundariesOfSpheres, LeaveAnOutletOfTheRequestedSize)
 
 TEST(BoundariesOfSpheres, ADrumWithEndWallsKeepsItsGrains)
 {
-  const auto scene = spheres({"--geometry", "drum", "--lateral", "walls", "--sides", "walls",
-                              "--drum-diameter", "30dS", "--drum-rate", "3", "--fill", "0.3"});
+  const auto scene = small_chute::paper_scene(
+      {"--dimension", "3",    "--width",    "6dL",   "--sides",         "walls",
+       "--slope",     "0",    "--accuracy", "draft", "--spread",        "0",
+       "--geometry",  "drum", "--lateral",  "walls", "--drum-diameter", "30dS",
+       "--drum-rate", "3",    "--fill",     "0.3"});
   auto simulation = release(deposit<3>(scene), scene);
   while (simulation.time() < 0.5) simulation.advance();
   const auto& grains = simulation.world().grains;
