@@ -81,7 +81,7 @@ std::string line(const char* title, const std::string& text)
   return fmt::format("  {:<10} {}\n", title, text);
 }
 
-/// What the steps that missed the tolerance did.
+/// Forces, energy and overlaps of the steps that missed the tolerance.
 std::string missed_in_words(const StepTotals& t, const Scene& scene, const Grains& grains)
 {
   const double weight_d = mobile_mass(grains) * scene.gravity * scene.small_diameter;

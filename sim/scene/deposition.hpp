@@ -30,7 +30,7 @@ struct DepositionHooks {
 ///
 /// A bed of depth H may still move after 10 sqrt(2 H/g): without friction, with restitution 1, or
 /// if a grain rolls on a flat wall. From then on restitution is 0, and every 2 sqrt(d_S/g) all
-/// velocities are halved, except those of falling, until the bed rests. A bed is refused, by a
+/// velocities are halved, but not downward ones, until the bed rests. A bed is refused, by a
 /// RunError, only if it still moves 10 sqrt(2 H/g) after its highest grain could have landed.
 ///
 /// Order of Grains: large grains, small grains, then boundary grains. The result has time 0 and
