@@ -310,15 +310,10 @@ void find(const Pairs<D>& pairs, std::size_t strip, const DetectionRule<D>& rule
   }
   if (!base_seen) contacts.on_base = contacts.size;
   const auto most = [](const Lanes& l) { return *std::max_element(l.begin(), l.end()); };
-  total = {sums.touching,
-           sum(sums.overlap),
-           most(sums.largest_overlap),
-           most(sums.fastest_approach),
-           sum(sums.load),
-           sum(sums.root_loads),
-           sum(sums.approaches),
-           sum(sums.strain) / 2,
-           sums.coincident};
+  total = {
+      sums.touching,  sum(sums.overlap),    most(sums.largest_overlap), most(sums.fastest_approach),
+      sum(sums.load), sum(sums.root_loads), sum(sums.approaches),       sum(sums.strain) / 2,
+      sums.coincident};
   leave_vectors();
 }
 
