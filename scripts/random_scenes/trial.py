@@ -91,7 +91,7 @@ class Simulator:
         raise Ended
 
     def check(self, name, excused):
-        """Checks the invariants of a run; if a warning excuses it, only those that no warning excuses."""
+        """Checks the invariants of a run. A warning excuses some of physical.py, none of exact.py."""
         run = Trajectory(f"{self.folder}/{name}")
         findings = list(exact.all_of(run))
         if all(f.measured <= f.bound for f in findings):

@@ -163,7 +163,8 @@ TEST_F(EarlierRun, LeavesNoTemporaryFile)
        {"run.h5.tmp.4194305", "run.h5.part.tmp.4194305", "run.h5.part.part",
         "run.h5.part.part.tmp.4194305", "run.chk.part", "run_prev.chk.tmp.4194305"})
     put(name, "left by a kill");
-  // Of a process that lives, of another file, and no temporary name.
+  // These stay: one has a writer that still runs, one belongs to another file, and two are no
+  // temporary names.
   const std::set<std::string> others{"run.h5.tmp.1", "other.h5.tmp.4194305", "run.h5.tmp.mine",
                                      "run.h5.tmp.4194305.txt"};
   for (const auto& name : others) put(name, "another's");
