@@ -223,7 +223,8 @@ def moving(run):
 
 
 def boundaries(run):
-    """Boundary grains have the positions that their motion prescribes: the middle of the chord of each step."""
+    """Boundary grains are where their motion puts them at the beginning and the end of each step; in between they move as
+    grains do, half the step with the velocity before and half with that after it."""
     rows = moving(run)
     others = np.setdiff1d(np.flatnonzero(run.fixed), rows)
     if len(others):
@@ -233,14 +234,17 @@ def boundaries(run):
     if len(rows) == 0:
         return
     centre = in_space(run.parameters["drum_centre"]) if run.keys["geometry"] == "drum" else 0
-    place = run.position[:, rows] - centre
-    end = run.time + run.part / 2
-    turn, shift = ((a + b) / 2 for a, b in zip(displaced(run, end - run.part), displaced(run, end)))  # of the chord
-    begin = (place[0] - shift[0]) @ np.linalg.inv(turn[0]).T
-    error = place - begin @ turn.transpose(0, 2, 1) - shift[:, None]
-    if run.keys["geometry"] == "shear":  # the plate is free along y, as one body
-        error[..., 1] -= error[:, :1, 1].copy()
-    yield worst("boundaries where their motion puts them", np.abs(error).max(axis=(1, 2)) / run.size, run.round_off / 10, run)
+    half, end = run.part / 2, run.time + run.part / 2
+    errors = []
+    for time, velocity in ((end - run.part, -run.before), (end, run.velocity)):
+        place = run.position[:, rows] + half[:, None, None] * velocity[:, rows] - centre
+        turn, shift = displaced(run, time)
+        begin = (place[0] - shift[0]) @ np.linalg.inv(turn[0]).T
+        error = place - begin @ turn.transpose(0, 2, 1) - shift[:, None]
+        if run.keys["geometry"] == "shear":  # the plate is free along y, as one body
+            error[..., 1] -= error[:, :1, 1].copy()
+        errors.append(np.abs(error).max(axis=(1, 2)))
+    yield worst("boundaries where their motion puts them", np.maximum(*errors) / run.size, run.round_off / 10, run)
     rate = run.number("drum-rate") if run.keys["geometry"] == "drum" else 0
     spin = np.where(end > 0, rate, 0)[:, None] * np.array([0, 0, 1])
     turned = np.abs(run.spin[:, rows] - spin[:, None]).max(axis=(1, 2))

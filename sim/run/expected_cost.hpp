@@ -8,7 +8,8 @@
 
 namespace grseg {
 
-/// Cost of a run, estimated before it begins, within a factor of about 1.5.
+/// Cost of a run, estimated before it begins: bytes within a factor of about 1.5, time within 2, or 3
+/// at large friction or restitution (docs/studies/hard-cases.md).
 struct ExpectedCost {
   double grains = 0;              // number of grains, including boundary grains
   double memory = 0;              // bytes of memory

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,15 @@ std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains)
 {
   if (!scene.geometry->bodies) return {};
   return scene.geometry->bodies(scene, grains);
+}
+
+double largest_acceleration(const Scene& scene)
+{
+  double largest = scene.gravity;
+  for (const auto& body : bodies_of(scene, {}))
+    largest = std::max({largest, largest_acceleration(body),
+                        std::abs(body.load) / (scene.density * bed_area(scene))});
+  return largest;
 }
 
 bool moves_boundaries(const Scene& scene)

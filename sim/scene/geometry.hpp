@@ -81,6 +81,10 @@ Gravity<D> gravity_of(const Scene& scene);
 /// Moving boundary grains of Scene::geometry; they are the last rows of `grains`.
 std::vector<BoundaryBody> bodies_of(const Scene& scene, const Grains& grains);
 
+/// Largest acceleration in a flow, m/s^2: Scene::gravity, the acceleration of a moving boundary, or
+/// the load of a plate over the mass of a bed without voids.
+double largest_acceleration(const Scene& scene);
+
 /// True if any boundary grain moves.
 bool moves_boundaries(const Scene& scene);
 

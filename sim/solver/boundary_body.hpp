@@ -18,8 +18,9 @@ struct BoundaryBody {
   double angular_frequency = 0;      ///< rad/s
   Vec2 centre = Vec2::Zero();        ///< m, centre of rotation at t = 0
   double spin = 0;                   ///< rad/s, angular velocity, counter-clockwise
-  double mass = 0;                   ///< kg; if above 0, the body moves freely along y
-  double load = 0;                   ///< N, external force along y on a free body
+  double reach = 0;  ///< m, largest distance from the axis of grains that it carries
+  double mass = 0;   ///< kg; if above 0, the body moves freely along y
+  double load = 0;   ///< N, external force along y on a free body
 
   bool free() const { return mass > 0; }
 };
@@ -31,20 +32,43 @@ inline Vec2 displacement(const BoundaryBody& body, double time)
   return body.velocity * time + body.amplitude * std::sin(body.angular_frequency * time);
 }
 
-/// Velocity, m/s, that moves the point of the body at `position` in one step to its prescribed
-/// place at `time` + `step`. It points along the chord, so that distances from the axis stay the
-/// same. For a free body, only the x component is used.
-inline Vec2 chord_velocity(const BoundaryBody& body, const Vec2& position, double time, double step)
+// Boundary grains move as other grains do (simulation.hpp): for half a step with their velocity at
+// its beginning, for the other half with the velocity at its end. A grain that rests on a boundary
+// moves with it; with one velocity for the whole step the boundary would run into the grain. Each
+// velocity is the prescribed one times tan(a)/a, where a is half the phase or the angle of a step:
+// with this factor every step ends exactly at the prescribed place.
+
+/// Velocity at the beginning of a step, m/s, of the point of the body that is at `position` then.
+/// For a free body, only the x component is used.
+inline Vec2 velocity_at_begin(const BoundaryBody& body, const Vec2& position, double time,
+                              double step)
 {
-  const Vec2 now = displacement(body, time);
-  Vec2 velocity = (displacement(body, time + step) - now) / step;
-  if (body.spin != 0 && time + step > 0) {
-    const double angle = body.spin * step, half = std::sin(angle / 2);
-    const Vec2 arm = position - body.centre - now;
-    const Vec2 across{-arm.y(), arm.x()};
-    velocity += (std::sin(angle) * across - 2 * half * half * arm) / step;
-  }
-  return velocity;
+  if (time < 0) return Vec2::Zero();
+  const Vec2 arm = position - body.centre - displacement(body, time);
+  const double shaken = 2 / step * std::tan(body.angular_frequency * step / 2);
+  const double turned = 2 / step * std::tan(body.spin * step / 2);
+  return body.velocity + shaken * std::cos(body.angular_frequency * time) * body.amplitude +
+         turned * Vec2(-arm.y(), arm.x());
+}
+
+/// Change of that velocity in the middle of the step, m/s; the point is at `position` then.
+inline Vec2 velocity_change(const BoundaryBody& body, const Vec2& position, double time,
+                            double step)
+{
+  if (time < 0) return Vec2::Zero();
+  const double phase = body.angular_frequency * step / 2, angle = body.spin * step / 2;
+  const Vec2 centre = body.centre + displacement(body, time + step / 2);
+  return -4 / step *
+         (std::tan(phase) * std::sin(phase) * std::sin(body.angular_frequency * time + phase) *
+              body.amplitude +
+          std::sin(angle) * std::sin(angle) * (position - centre));
+}
+
+/// Largest acceleration of a body's prescribed motion, m/s^2.
+inline double largest_acceleration(const BoundaryBody& body)
+{
+  return body.amplitude.norm() * body.angular_frequency * body.angular_frequency +
+         body.reach * body.spin * body.spin;
 }
 
 }  // namespace grseg

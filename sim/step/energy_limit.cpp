@@ -77,7 +77,30 @@ void Simulation<D>::begin_budget()
   at_begin_ = at_end_;
   bodies_before_.clear();
   for (const auto& body : world_.bodies)
-    bodies_before_.push_back(state_.motion[body_of_[body.begin]].v[1]);
+    for (auto row = body.begin; row < body.end; ++row)
+      bodies_before_.push_back(state_.motion[body_of_[row]]);
+}
+
+template <int D>
+Vector<D> Simulation<D>::mean_velocity(std::size_t b, double lever, const Vector<D>& n) const
+{
+  const auto row = static_cast<std::uint32_t>(state_.row[b]);
+  const auto* before = bodies_before_.data();
+  for (const auto& body : world_.bodies) {
+    if (row < body.begin || row >= body.end) {
+      before += body.end - body.begin;
+      continue;
+    }
+    const auto& motion = state_.motion[b];
+    Vector<D> mean = (vector_of(before[row - body.begin].v) + vector_of(motion.v)) / 2;
+    if (body.free()) mean.y() = 0;
+    const auto rim = spin_of<D>(motion.rim);
+    if constexpr (D == 2)
+      return mean + lever * rim * Vec2(-n.y(), n.x());
+    else
+      return mean + lever * rim.cross(n);
+  }
+  return Vector<D>::Zero();
 }
 
 template <int D>
@@ -85,35 +108,19 @@ double Simulation<D>::work_of_boundaries() const
 {
   if (world_.bodies.empty()) return 0;
   double work = 0;
-  const auto is_free = [&](std::size_t b) {
-    const auto row = static_cast<std::uint32_t>(state_.row[b]);
-    return std::any_of(world_.bodies.begin(), world_.bodies.end(), [&](const auto& body) {
-      return body.free() && body.begin <= row && row < body.end;
-    });
-  };
-  const auto turning = [](const Spin<D>& rim, const Vector<D>& n) -> Vector<D> {
-    if constexpr (D == 2)
-      return rim * Vec2(-n.y(), n.x());
-    else
-      return rim.cross(n);
-  };
   for (const auto& strip : contacts_)
     for (std::size_t slot = strip.on_base * block_lanes; slot < strip.size * block_lanes; ++slot) {
       const auto& block = strip.blocks[slot / block_lanes];
       const std::size_t lane = slot % block_lanes, j = block.j[lane] / numbers_per_body<D>;
       if (!(block.impulse_n[lane] > 0) || j == state_.immobile()) continue;
-      const auto& motion = state_.motion[j];
-      Vector<D> velocity =
-          vector_of(motion.v) +
-          block.kappa[lane] * turning(spin_of<D>(motion.rim), at_lane(block.n, lane));
-      if (is_free(j)) velocity.y() = 0;
-      work += impulse_of(block, lane).dot(velocity);
+      work +=
+          impulse_of(block, lane).dot(mean_velocity(j, block.kappa[lane], at_lane(block.n, lane)));
     }
-  for (std::size_t k = 0; k < world_.bodies.size(); ++k) {
-    const auto& body = world_.bodies[k];
-    if (!body.free()) continue;
-    const double now = state_.motion[body_of_[body.begin]].v[1], before = bodies_before_[k];
-    work -= (body.mass * (now - before) - body.load * world_.step) * (now + before) / 2;
+  const auto* before = bodies_before_.data();
+  for (const auto& body : world_.bodies) {
+    const double was = before->v[1], now = state_.motion[body_of_[body.begin]].v[1];
+    if (body.free()) work -= (body.mass * (now - was) - body.load * world_.step) * (now + was) / 2;
+    before += body.end - body.begin;
   }
   return work;
 }
@@ -137,10 +144,13 @@ double Simulation<D>::most_gain(int sweeps) const
   const auto falling = [&](double mass, double force) {
     return force * force * world_.step * world_.step / (8 * mass);
   };
-  double most = held_back_ + found_.strain / std::max(sweeps, 1) +
-                falling(mobile_mass_, mobile_mass_ * world_.gravity.norm());
-  for (const auto& body : world_.bodies)
+  double acceleration = world_.gravity.norm();
+  double most = held_back_ + found_.strain / std::max(sweeps, 1);
+  for (const auto& body : world_.bodies) {
+    acceleration += largest_acceleration(body);
     if (body.free()) most += falling(body.mass, body.load);
+  }
+  most += falling(mobile_mass_, mobile_mass_ * acceleration);
   return most;
 }
 
@@ -162,11 +172,11 @@ Eigen::VectorXd Simulation<D>::solution()
   for_impulses(contacts_, [&](const Lanes& impulses) {
     all.insert(all.end(), impulses.begin(), impulses.end());
   });
-  for (std::size_t k = 0; k < world_.bodies.size(); ++k) {
-    const auto& body = world_.bodies[k];
-    const double free_flight =
-        bodies_before_[k] + (body.free() ? world_.step * body.load / body.mass : 0);
-    all.push_back(state_.motion[body_of_[body.begin]].v[1] - free_flight);
+  const auto* before = bodies_before_.data();
+  for (const auto& body : world_.bodies) {
+    const double change = state_.motion[body_of_[body.begin]].v[1] - before->v[1];
+    all.push_back(body.free() ? change - world_.step * body.load / body.mass : 0);
+    before += body.end - body.begin;
   }
   return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }

@@ -14,16 +14,18 @@
 ///
 /// with impulses p and relative velocities u, u' before and after the step, to
 ///
-///   W + T  <=  T_before + E/N + M (g h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
+///   W + T  <=  T_before + E/N + M (a h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
 ///
 ///   T  energy that pairs gave up because they are slowed down before they touch; they get it back
 ///      in the next step, when they rebound (ImpulseSums::held_back); T_before: of the last step
 ///   E  sum of W_nn p_n^2/2 over the impulses of the last step (DetectionSums::strain). With N sweeps
 ///      a contact is as soft as a spring of stiffness N m/h^2, and can return p_n^2 W_nn/(2 N)
+///   a  gravity and the largest acceleration of a moving boundary
 ///
 /// The last two terms hold for exact solutions without rebounds, where p . u' <= 0: a grain of mass m
 /// whose contacts change its velocity by q adds m q . (v' - (g h + q)/2), and the sum of m q . v' is
-/// the sum of p . u'. The largest value of -m q . (g h + q)/2 is m (g h)^2/8.
+/// the sum of p . u'. The largest value of -m q . (g h + q)/2 is m (g h)^2/8. Relative to an
+/// accelerating boundary, gravity is as much larger.
 ///
 /// A step above the limit is solved again without rebounds. Then impulses are moved from the first
 /// solution towards the second one until the limit is met; if the second one also exceeds it,

@@ -106,25 +106,31 @@ template <int D>
 void drive_boundaries(const World<D>& world, double time, std::span<const std::uint32_t> body_of,
                       GrainState<D>& grains)
 {
+  const double h = world.step;
   for (const auto& body : world.bodies)
     for (auto row = body.begin; row < body.end; ++row) {
       auto& motion = grains.motion[body_of[row]];
       const Vec2 position = grains.position[body_of[row]].template head<2>();
-      const auto velocity = chord_velocity(body, position, time, world.step);
+      const Vec2 velocity = velocity_at_begin(body, position, time, h);
       motion.v[0] = velocity.x();
       if (!body.free()) motion.v[1] = velocity.y();
-      motion.rim.back() = time + world.step > 0 ? body.spin * world.grains.radius[row] : 0;
+      motion.rim.back() = time < 0 ? 0 : body.spin * world.grains.radius[row];
     }
 }
 
 template <int D>
-void apply_loads(const World<D>& world, double duration, std::span<const std::uint32_t> body_of,
-                 GrainState<D>& grains)
+void accelerate_boundaries(const World<D>& world, double time,
+                           std::span<const std::uint32_t> body_of, GrainState<D>& grains)
 {
+  const double h = world.step;
   for (const auto& body : world.bodies)
-    if (body.free())
-      for (auto row = body.begin; row < body.end; ++row)
-        grains.motion[body_of[row]].v[1] += duration * body.load / body.mass;
+    for (auto row = body.begin; row < body.end; ++row) {
+      auto& v = grains.motion[body_of[row]].v;
+      const Vec2 position = grains.position[body_of[row]].template head<2>();
+      const Vec2 change = velocity_change(body, position, time, h);
+      v[0] += change.x();
+      v[1] += body.free() ? h * body.load / body.mass : change.y();
+    }
 }
 
 template void move_bodies(double, GrainState<2>&, int);
@@ -134,7 +140,8 @@ template void accelerate<2>(const Vector<2>&, GrainState<2>&, int);
 template void wrap_positions(const Box&, GrainState<2>&, int);
 template void drive_boundaries(const World<2>&, double, std::span<const std::uint32_t>,
                                GrainState<2>&);
-template void apply_loads(const World<2>&, double, std::span<const std::uint32_t>, GrainState<2>&);
+template void accelerate_boundaries(const World<2>&, double, std::span<const std::uint32_t>,
+                                    GrainState<2>&);
 template void move_bodies(double, GrainState<3>&, int);
 template double move_bodies(double, double, GrainState<3>&, std::vector<Position<3>>&, int);
 template void forecast_positions(double, const GrainState<3>&, std::vector<Position<3>>&, int);
@@ -142,6 +149,7 @@ template void accelerate<3>(const Vector<3>&, GrainState<3>&, int);
 template void wrap_positions(const Box&, GrainState<3>&, int);
 template void drive_boundaries(const World<3>&, double, std::span<const std::uint32_t>,
                                GrainState<3>&);
-template void apply_loads(const World<3>&, double, std::span<const std::uint32_t>, GrainState<3>&);
+template void accelerate_boundaries(const World<3>&, double, std::span<const std::uint32_t>,
+                                    GrainState<3>&);
 
 }  // namespace grseg

@@ -38,15 +38,16 @@ void wrap_positions(const Box& box, GrainState<D>& grains, int threads);
 // Motion of World::bodies, boundary grains that move, during a step. `body_of`: per row of Grains,
 // index in `grains`.
 
-/// Sets the prescribed velocities of the bodies for the step that begins at `time`, s; of a free
-/// body only along x. Also sets rim speeds, which follow from the rotation of the body.
+/// Sets the prescribed velocities of the bodies at the beginning of the step, at `time`, s; of a
+/// free body only along x. Also sets rim speeds, which follow from the rotation of the body.
 template <int D>
 void drive_boundaries(const World<D>& world, double time, std::span<const std::uint32_t> body_of,
                       GrainState<D>& grains);
 
-/// Accelerates free bodies by their loads for `duration`, s.
+/// In the middle of that step, sets the velocities of the bodies at its end; free bodies are
+/// accelerated by their loads.
 template <int D>
-void apply_loads(const World<D>& world, double duration, std::span<const std::uint32_t> body_of,
-                 GrainState<D>& grains);
+void accelerate_boundaries(const World<D>& world, double time,
+                           std::span<const std::uint32_t> body_of, GrainState<D>& grains);
 
 }  // namespace grseg

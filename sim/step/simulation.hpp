@@ -152,6 +152,10 @@ class Simulation {
   // Limit of the energy of a step (energy_limit.cpp). begin_budget() is called before gravity and
   // loads act, the others after the solve.
   void begin_budget();
+  /// Mean velocity in the step, m/s, of the surface of grain b of a moving boundary at the point that
+  /// lies along n, at a distance of `lever` radii; 0 of other grains. Along y, free bodies count as
+  /// at rest.
+  Vector<D> mean_velocity(std::size_t b, double lever, const Vector<D>& n) const;
   double work_of_boundaries() const;  // J, on grains, and energy that free bodies lost
   /// Left side of the limit, J, less the round-off. `held_back`: T.
   double energy_gain(double held_back);
@@ -185,10 +189,10 @@ class Simulation {
   double written_step_ = 0;                // s, see written_step()
   std::vector<StripContacts<D>> contacts_;
   SolverMemory<D> solver_memory_;
-  MotionSums<D> at_begin_, at_end_;    // at the beginning and at the end of the step
-  bool end_known_ = false;             // true if at_end_ describes the present motion
-  std::vector<double> bodies_before_;  // m/s, velocity of World::bodies along y at the beginning
-  double held_back_ = 0;               // J, in the last step
+  MotionSums<D> at_begin_, at_end_;       // at the beginning and at the end of the step
+  bool end_known_ = false;                // true if at_end_ describes the present motion
+  std::vector<Motion<D>> bodies_before_;  // of the grains of World::bodies, at the beginning
+  double held_back_ = 0;                  // J, in the last step
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // true if contacts_ do not belong to the previous step
 };

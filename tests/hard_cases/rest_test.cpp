@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -89,6 +90,25 @@ TEST(Rest, ABedUnderALoadedPlateComesToRestAndStays)
     sinking.at_most(std::abs(bed.position(last).y() - height) / scene.small_diameter, 6e-5);
     overlap.at_most(std::max(0.0, mean - before) / scene.small_diameter, 6e-5);
   }
+}
+
+TEST(Rest, TheHeaviestPlateComesToRestOnGrainsWithoutRestitution)
+{
+  // With N sweeps per step contacts are as soft as springs of N m/h^2 (H14), and a plate of R layers
+  // on n layers swings in 2 pi sqrt(R n/N) steps. Each swing gives its energy to sliding grains, and
+  // none may be left when the plate has fallen from a height of d_S by its load ten times.
+  Case speed("G20", "speed of a plate of 256 layers, over that of a fall of d_S by its load");
+  const auto scene = small_chute::paper_scene(
+      {"--geometry",   "shear", "--size-ratio", "1",     "--phi-large",   "0",
+       "--depth",      "8dS",   "--length",     "16dS",  "--plate-speed", "0",
+       "--slope",      "0",     "--accuracy",   "draft", "--restitution", "0",
+       "--plate-mass", "0.0804"});
+  auto bed = release(deposit<2>(scene), scene);
+  const auto last = bed.world().grains.size() - 1;
+  const double fall = scene.plate_pressure * scene.length / scene.plate_mass;  // m/s^2
+  while (bed.time() < 10 * std::sqrt(2 * scene.small_diameter / fall)) bed.advance();
+  speed.at_most(std::abs(bed.velocity(last).y()) / std::sqrt(2 * scene.small_diameter * fall),
+                1e-3);
 }
 
 TEST(Rest, HeavyGrainsDoNotSinkIntoLightOnes)

@@ -67,6 +67,7 @@ std::vector<BoundaryBody> turning_ring(const Scene& scene, const Grains& grains)
   auto drum = body_of_beads(grains);
   drum.centre = centre_of(scene);
   drum.spin = scene.drum_rate;
+  drum.reach = scene.drum_diameter / 2;
   return {drum};
 }
 

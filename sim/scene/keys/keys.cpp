@@ -230,7 +230,8 @@ std::vector<SceneKey> geometry_keys()
     {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
      "pressure of a shear cell's plate on the grains, N/m (spheres: Pa)", when.shear},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
-     "mass of a shear cell's plate, kg (default: mass of its grains)", when.shear},
+     "mass of a shear cell's plate, kg (default: mass of its grains), at most 256 layers of small "
+     "grains", when.shear},
     {"column-width", "40dS", length(&Scene::column_width, "1dS", "1e12m"), bed, no,
      "width of a column before its gate opens; at least 1dL", when.column},
     {"outlet", "16dS", length(&Scene::outlet, "1dS", "1e12m"), bed, no,

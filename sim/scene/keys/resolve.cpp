@@ -21,10 +21,9 @@ namespace po = boost::program_options;
 constexpr double largest_step = 0.05;  // in sqrt(d_S/g)
 constexpr double most_steps = 1e15;    // so that a double represents their number exactly
 constexpr double largest_turn = 1;     // degrees per step, which has the gravity of its middle
-// Least number of steps in a period of a shaken base. A boundary moves along the chord of each
-// step; with N chords per period its velocity differs from the sine's by up to (pi/N)^2/6 of the
-// amplitude, 0.4 % for 20.
-constexpr double least_chords = 20;
+// Least number N of steps in a period of a shaken base or a turn of a ring: the velocities of the
+// boundary are too large by (pi/N)^2/3, 0.8 % for 20 (boundary_body.hpp).
+constexpr double cycle_steps = 20;
 // Largest distance that its load may move a plate in a step, d_S; half of it may become overlap.
 constexpr double farthest_by_load = 0.1;
 // Largest mass of a large grain, in masses of a small one, for which the sweeps of `accuracy`
@@ -80,30 +79,46 @@ void check_shaking(const Scene& scene)
           "shake-frequency is 0 but shake-amplitude is not; set both");
 }
 
+/// Frequency of a shaken base or a turning ring, Hz; 0 if there is none.
+double cycles_per_second(const Scene& scene)
+{
+  double fastest = 0;
+  for (const auto& body : bodies_of(scene, {}))
+    fastest = std::max({fastest, body.angular_frequency, std::abs(body.spin)});
+  return fastest / (2 * std::numbers::pi);
+}
+
 /// Sets the step: the given one, or the longest one that `accuracy` allows and that divides the
-/// frame interval.
+/// frame interval. The default follows the largest acceleration; a given one is limited by gravity.
 void resolve_step(Scene& scene, const KeyGiven& given, const Accuracy& accuracy)
 {
-  const double natural = std::sqrt(scene.small_diameter / scene.gravity);
-  const double frequency = scene.shake_amplitude > 0 ? scene.shake_frequency : 0;
-  const double longest =
-      std::min(accuracy.step * natural, 1 / (least_chords * frequency));  // infinite if unshaken
+  const double natural = std::sqrt(scene.small_diameter / largest_acceleration(scene));
+  const double least_rate = cycle_steps * cycles_per_second(scene);
+  const double longest = std::min(accuracy.step * natural, 1 / least_rate);  // may be infinite
   if (!given("step")) {
     scene.step = scene.frame_interval / std::ceil(scene.frame_interval / longest);
     return;
   }
-  require(
-      least_chords * frequency * scene.step <= 1 + 1e-9, "step",
-      fmt::format("step is {:.6g} s: a period of shake-frequency, {:g} Hz, has only {:.3g} steps; "
-                  "choose a step of at most {:.4g} s, for {:g} steps in a period",
-                  scene.step, frequency, 1 / (frequency * scene.step),
-                  1 / (least_chords * frequency), least_chords));
-  require_within(scene.step, "step", 0, largest_step * natural);
+  require(least_rate * scene.step <= 1 + 1e-9, "step",
+          fmt::format("step is {:.6g} s: a cycle of the moving boundary, {:.4g} s, has only {:.3g} "
+                      "steps; choose a step of at most {:.4g} s, for {:g} steps in a cycle",
+                      scene.step, cycle_steps / least_rate, cycle_steps / least_rate / scene.step,
+                      1 / least_rate, cycle_steps));
+  require_within(scene.step, "step", 0,
+                 largest_step * std::sqrt(scene.small_diameter / scene.gravity));
   const double steps = scene.frame_interval / scene.step;
   require(std::abs(steps - std::round(steps)) <= 1e-6 * steps && steps >= 0.5, "step",
           fmt::format("frame-interval, {:.9g} s, is not a whole number of steps of {:.9g} s; "
                       "change one of them",
                       scene.frame_interval, scene.step));
+}
+
+/// Mass of a plate, in masses of a layer of small grains under it.
+double layers_of_plate(const Scene& scene)
+{
+  const double small = scene.density * nominal_volume(scene, scene.small_diameter);
+  const double under_it = base_area(scene) / std::pow(scene.small_diameter, scene.dimension - 1);
+  return scene.plate_mass / (under_it * small);
 }
 
 /// Factor that multiplies sweeps and divides the tolerance if grains support much heavier ones, or
@@ -116,11 +131,8 @@ int more_sweeps(const Scene& scene)
   double masses = scene.density_ratio * scene.size_ratio * scene.size_ratio;
   if (scene.dimension == 3) masses *= scene.size_ratio;
   if (two_species) contrast = std::max(masses / heaviest_large, 1 / masses);
-  if (scene.geometry->has_free_body) {
-    const double small = scene.density * nominal_volume(scene, scene.small_diameter);
-    const double under_it = base_area(scene) / std::pow(scene.small_diameter, scene.dimension - 1);
-    contrast = std::max(contrast, scene.plate_mass / (under_it * small) / heaviest_plate);
-  }
+  if (scene.geometry->has_free_body)
+    contrast = std::max(contrast, layers_of_plate(scene) / heaviest_plate);
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(contrast)), 1.0, most_sweeps_factor));
 }
 
@@ -177,6 +189,12 @@ void check_plate(const Scene& scene)
                       "in a step, more than {:g}; choose at least {:.2g} kg, or a smaller step",
                       scene.plate_mass, way, farthest_by_load,
                       scene.plate_mass * way / farthest_by_load));
+  const double layers = layers_of_plate(scene);
+  const double heaviest = heaviest_plate * most_sweeps_factor * most_sweeps_factor;
+  require(layers <= heaviest * (1 + 1e-9), "plate-mass",
+          fmt::format("plate-mass is {:.4g} kg, that of {:.4g} layers of small grains: above {:g} "
+                      "the plate would rebound as if from springs; choose at most {:.4g} kg",
+                      scene.plate_mass, layers, heaviest, scene.plate_mass * heaviest / layers));
 }
 
 void check_turning(const Scene& scene)

@@ -136,6 +136,60 @@ TEST(BoundaryBody, AnOscillatingBaseFollowsItsSine)
   simulation.drive({base});
   for (int step = 0; step < 777; ++step) simulation.advance();
   EXPECT_NEAR(simulation.position(0).y(), 0.3 * std::sin(17 * 0.777), 1e-13);
+  // With half the phase of a step, a = 0.0085, velocities are tan(a)/a times those of the sine.
+  const double half = 17 * 0.001 / 2, too_fast = std::tan(half) / half;
+  EXPECT_NEAR(simulation.velocity(0).y(), too_fast * 0.3 * 17 * std::cos(17 * 0.777), 1e-12);
+}
+
+/// Disc in a pocket of a turning ring, without gravity, with the ring's velocity and spin.
+struct InARing {
+  double way = 4 - std::sqrt(3);  // m, distance of the disc's centre from the axis
+  double spin = 5;                // rad/s
+  std::vector<Disc> discs;
+  Simulation<2> simulation;
+
+  explicit InARing(const Material& material)
+      : discs{{{0, -way}, 1}, {{-1, -4}, 1, true}, {{1, -4}, 1, true}},
+        simulation(world_with(material), positions_of(discs))
+  {
+    BoundaryBody ring;
+    ring.begin = 1;
+    ring.end = 3;
+    ring.spin = spin;
+    simulation.drive({ring});
+    simulation.set_velocity(0, {spin * way, 0}, spin);
+  }
+  World<2> world_with(const Material& material) const
+  {
+    auto world = world_of(discs);
+    world.material = material;
+    return world;
+  }
+};
+
+// Rigid bodies that turn together keep their distances. In a step of length h the load moves a disc
+// by a h^2/2, where a is the centripetal acceleration; a disc that moved with the ring's velocity of
+// the step before would sink by that much in every step.
+TEST(BoundaryBody, ADiscThatTurnsWithARingDoesNotSinkIntoIt)
+{
+  for (const auto& material : {Material{0, 0}, Material{0.5, 0}, Material{0.5, 0.5}}) {
+    InARing scene(material);
+    auto& simulation = scene.simulation;
+    Frame<2> frame;
+    Vec2 force = Vec2::Zero();
+    constexpr int steps = 5000;  // four turns
+    for (int step = 0; step < steps; ++step) {
+      simulation.advance(frame);
+      const Vec2 inwards = -frame.position[0].normalized();
+      for (const auto& of_contact : frame.contacts.force)
+        force += Vec2(of_contact.dot(inwards), of_contact.dot(Vec2(inwards.y(), -inwards.x())));
+    }
+    const double h = simulation.world().step, a = scene.spin * scene.spin * scene.way;
+    EXPECT_NEAR(simulation.position(0).norm(), scene.way, a * h * h / 2);
+    const double load = simulation.world().grains.mass[0] * a;
+    EXPECT_NEAR(force.x() / steps, load, 1e-2 * load);
+    EXPECT_NEAR(force.y() / steps, 0, 1e-2 * load);
+  }
 }
 
 TEST(BoundaryBody, NothingMovesBeforeTimeZero)

@@ -143,5 +143,27 @@ TEST(BoundariesOfSpheres, ADrumWithEndWallsKeepsItsGrains)
   EXPECT_GT(mobile, 300);
 }
 
+// Froude numbers of 1.2 and 4.9. A grain that meets the ring may overlap with it by its way in one
+// step. Grains that turn with the ring must not sink: they did, by omega^2 R h/2 per second, up to
+// 0.2 d_S.
+TEST(DrumOfSpheres, AboveFroudeOneDoesNotPressGrainsIntoItsRing)
+{
+  for (const char* rate : {"20", "40"}) {
+    const auto scene = small_chute::paper_scene(
+        {"--dimension", "3", "--geometry", "drum", "--lateral", "walls", "--drum-diameter", "12dS",
+         "--width", "8dS", "--fill", "0.3", "--drum-rate", rate, "--accuracy", "draft"});
+    auto simulation = release(deposit<3>(scene), scene);
+    double overlap = 0, way = 0, mean = 0;
+    while (simulation.time() < 1) {
+      const auto report = simulation.advance();
+      overlap = std::max(overlap, report.largest_overlap);
+      way = std::max(way, report.farthest_approach);
+      mean = report.sum_overlap / static_cast<double>(std::max<std::size_t>(report.touching, 1));
+    }
+    EXPECT_LT(overlap, way) << rate;
+    EXPECT_LT(mean, 1e-3 * scene.small_diameter) << rate;  // above, a run is in doubt
+  }
+}
+
 }  // namespace
 }  // namespace grseg

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -138,7 +139,7 @@ std::string refused_key(const std::vector<std::string>& words)
 
 TEST(Scene, AShakenBaseHasTwentyStepsInAPeriod)
 {
-  const std::vector<std::string> shaken{"--shake-amplitude", "2dS", "--shake-frequency", "2000"};
+  const std::vector<std::string> shaken{"--shake-amplitude", "1e-6dS", "--shake-frequency", "2000"};
   EXPECT_NEAR(scene_from(shaken).step, 1 / (20 * 2000.0), 1e-12);
   auto with_step = shaken;
   with_step.insert(with_step.end(), {"--step", "2.5e-4"});
@@ -147,10 +148,56 @@ TEST(Scene, AShakenBaseHasTwentyStepsInAPeriod)
   EXPECT_EQ(refused_key(with_step), "none");
 }
 
+TEST(Scene, ATurningDrumHasTwentyStepsInATurn)
+{
+  const std::vector<std::string> drum{"--geometry", "drum", "--lateral",  "walls",
+                                      "--step",     "1e-4", "--drum-rate"};
+  auto slow = drum, fast = drum;
+  slow.push_back("3000");
+  fast.push_back("3500");
+  EXPECT_EQ(refused_key(slow), "none");
+  EXPECT_EQ(refused_key(fast), "step");
+}
+
+// The distance that a load moves a grain in a step, a h^2/2, is the same for every acceleration a.
+TEST(Scene, TheStepFollowsTheLargestAcceleration)
+{
+  const auto steps = [](std::vector<std::string> words, const char* key, const char* value) {
+    words.insert(words.end(), {"--frame-interval", "50", "--duration", "100", key, value});
+    return scene_from(words).step;
+  };
+  const double usual = scene_from({"--frame-interval", "50", "--duration", "100"}).step;
+  // Gravity is 9.8 m/s^2; the drum's radius is 0.2 m, so that it has 9.8 m/s^2 at 7 rad/s.
+  const std::vector<std::string> drum{"--geometry",      "drum", "--lateral", "walls",
+                                      "--drum-diameter", "0.4m"};
+  EXPECT_EQ(steps(drum, "--drum-rate", "-6.9"), usual);
+  EXPECT_NEAR(steps(drum, "--drum-rate", "-14"), usual / 2, 1e-5 * usual);
+  // An amplitude of 9.8 mm has 9.8 m/s^2 at (1000/s^2)^(1/2) = 5.03292 Hz.
+  const std::vector<std::string> shaken{"--shake-amplitude", "9.8mm"};
+  EXPECT_EQ(steps(shaken, "--shake-frequency", "5"), usual);
+  EXPECT_NEAR(steps(shaken, "--shake-frequency", "15.09876"), usual / 3, 1e-5 * usual);
+  // The plate presses with 9.8 m/s^2 times the mass of a bed of 1 m and 1 kg/m^2.
+  const std::vector<std::string> shear{"--geometry", "shear", "--depth", "1m", "--gravity", "9.8"};
+  EXPECT_EQ(steps(shear, "--plate-pressure", "9.7"), usual);
+  EXPECT_NEAR(steps(shear, "--plate-pressure", "156.8"), usual / 4, 1e-5 * usual);
+}
+
 TEST(Scene, APlateIsTooHeavyForItsLoadToMoveItUnseenWithinAStep)
 {
   EXPECT_EQ(refused_key({"--geometry", "shear"}), "none");
   EXPECT_EQ(refused_key({"--geometry", "shear", "--plate-mass", "1e-8"}), "plate-mass");
+}
+
+// With 16 times the sweeps, the most that presets make, 256 layers are carried as one is.
+TEST(Scene, APlateIsAsHeavyAs256LayersOfSmallGrainsAtMost)
+{
+  const auto plate = [](double layers) {
+    const double disc = std::numbers::pi / 4 * 1e-4;  // d_S = 1 cm; 100 of them in a layer of 1 m
+    return refused_key({"--geometry", "shear", "--small-diameter", "1cm", "--length", "1m",
+                        "--plate-mass", std::to_string(layers * 100 * disc)});
+  };
+  EXPECT_EQ(plate(255), "none");
+  EXPECT_EQ(plate(257), "plate-mass");
 }
 
 TEST(Scene, NearlyElasticGrainsReboundInTheStepInWhichTheyMeet)
