@@ -177,12 +177,20 @@ def free_work(run):
 
     Contacts with impulses p, and relative velocities u before and u' after the step, do the work W = p.(u + u')/2. The
     velocity of a grain changes by g h + q, with m q the sum of impulses on it. So W = p.u' - sum of m q.(g h + q)/2, less
-    a positive term of rotation, and W <= p.u' + M (g h)^2/8 for any impulses. Without rebounds p.u' <= 0."""
-    fall = np.linalg.norm(run.gravity, axis=1) * run.part
+    a positive term of rotation, and W <= p.u' + M (g h)^2/8 for any impulses. Without rebounds p.u' <= 0. Relative to an
+    accelerating boundary, gravity is as much larger."""
+    fall = (np.linalg.norm(run.gravity, axis=1) + acceleration_of_boundary(run)) * run.part
     work = run.mass[run.mobile].sum() * fall**2 / 8
     if run.keys["geometry"] == "shear":  # the plate falls by its load
         work += (run.number("plate-pressure") * run.base_area * run.part) ** 2 / (8 * run.number("plate-mass"))
     return work
+
+
+def acceleration_of_boundary(run):
+    """Largest acceleration of a ring or a shaken base, m/s^2."""
+    if run.keys["geometry"] == "drum":
+        return run.number("drum-rate") ** 2 * run.number("drum-diameter") / 2
+    return run.number("shake-amplitude") * (2 * np.pi * run.number("shake-frequency")) ** 2 if run.keys["geometry"] == "bed" else 0
 
 
 def energy_of_contacts(run):

@@ -73,8 +73,8 @@ class Simulator:
         """Checks that a run which did not finish ends with one sentence and leaves no file under its final name."""
         trial, code = self.trial, done.returncode
         there, part = (os.path.exists(f"{self.folder}/{name}") for name in (output, output + ".part"))
-        # Sentences of the program, except its estimate "N grains, ...".
-        said = [line for line in done.stderr.splitlines() if re.match(r"grseg-sim: (?!\d+ grains, )", line)]
+        # Sentences of the program, except its estimate "N grains, ..." and "continues CHECKPOINT from ...".
+        said = [line for line in done.stderr.splitlines() if re.match(r"grseg-sim: (?!\d+ grains, |continues )", line)]
         if code in (0, 4):
             if not there or part:
                 trial.fail("files at the end", f"{output}: {there}, {output}.part: {part}", "the trajectory alone")
