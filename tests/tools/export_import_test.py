@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A run that is exported to LAMMPS dumps and imported by the command that grseg-export prints is unchanged,
-in every number and in its content digest: discs, and spheres and discs of three species, also if grains
+in every number and in its content digest, but for forces on a driven boundary: discs, and spheres and discs of three species, also if grains
 come and go; a bed that turns with a drum; spheres without gravity, or on a steep slope, or uphill.
 Usage: export_import_test.py FOLDER-OF-PROGRAMS SYNTHETIC_RUN RUN.h5 FOLDER-OF-SCENES
 """
@@ -23,8 +23,8 @@ def same(a, b):
     return np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
 
 
-def require_that_it_comes_back(path, *more, plate=False):
-    """`plate`: the run has a force on a plate of boundary grains, which an import leaves out."""
+def require_that_it_comes_back(path, *more, driven=False):
+    """`driven`: boundary grains accelerate; an import leaves out the forces on them."""
     said = subprocess.run([exporter, path, "--to", "lammps", "-o", "run.dump.gz", "--overwrite"],
                           check=True, capture_output=True, text=True).stderr
     words = shlex.split(said.split("back into a run: ")[1])
@@ -39,12 +39,12 @@ def require_that_it_comes_back(path, *more, plate=False):
                 ("grseg/species", "name diameter mobile"),
                 ("parameters", "step gravity small_diameter large_diameter")):
             for name in names.split():
-                part = (slice(None), run["particles/grains/fixed"][:] == 0) if plate and name == "force/value" else ()
+                part = (slice(None), run["particles/grains/fixed"][:] == 0) if driven and name == "force/value" else ()
                 assert same(run[group][name][part], again[group][name][part]), f"{name} differs"
         box, box_again = (f["particles/grains/box"] for f in (run, again))
         assert np.array_equal(box.attrs["boundary"], box_again.attrs["boundary"])
         assert np.array_equal(box["edges"][::2], box_again["edges"][::2])  # periods along x and z
-        assert plate or run["grseg/digest"][-1] == again["grseg/digest"][-1], "only the sign of a zero differs"
+        assert driven or run["grseg/digest"][-1] == again["grseg/digest"][-1], "only the sign of a zero differs"
 
 
 def simulate(scene, *options):
@@ -60,9 +60,9 @@ with tempfile.TemporaryDirectory() as folder:
         # Grains of this run are at random places, and few of those that overlap have a contact.
         require_that_it_comes_back("synthetic.h5", "--accept-residual", "completeness=100")
     simulate("drum", "--drum-diameter", "24dS", "--duration", "0.6", "--frame-interval", "0.02")
-    require_that_it_comes_back("sim.h5")
+    require_that_it_comes_back("sim.h5", driven=True)
     simulate("shear", *SMALL, "--dimension", "3", "--width", "6dS")
-    require_that_it_comes_back("sim.h5", plate=True)
+    require_that_it_comes_back("sim.h5", driven=True)
     for dimension, slope in ((2, -25), (2, 60), (3, -25), (3, 60), (3, -60)):
         simulate("chute", *SMALL, "--dimension", str(dimension), "--slope", str(slope), *(("--width", "8dS") if dimension == 3 else ()))
         require_that_it_comes_back("sim.h5")
