@@ -4,6 +4,7 @@ import dataclasses
 import os
 import re
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -14,7 +15,7 @@ from random_scenes import exact, physical
 from random_scenes.scenes import multiple, random_scene
 from random_scenes.trajectory import Trajectory
 
-LONGEST = 600  # most wall time of one program, s; nearly all take less than 1 s
+LONGEST = 600  # most processor time of one program, s; nearly all take less than 1 s
 OUTCOMES = {"held": "every invariant is satisfied", "reported": "the tolerance was missed, as exit code 4 reports",
             "doubted": "the summary has a line `doubt`", "stopped": "exit code 1 and one sentence",
             "refused": "exit code 2 and one sentence", "failed": "an invariant is violated without a warning, or a program failed"}
@@ -54,12 +55,11 @@ class Simulator:
         """Runs grseg-sim; returns True if the run, or an earlier one of the scene, warns that it may be wrong."""
         words = [*arguments, "--strict", "-o", output]
         self.trial.commands.append(shlex.join(["grseg-sim", *words]))
-        try:
-            done = subprocess.run([self.program, *words], cwd=self.folder, stdin=subprocess.DEVNULL, check=False,
-                                  capture_output=True, text=True, timeout=LONGEST)
-        except subprocess.TimeoutExpired:
+        done = subprocess.run(["prlimit", f"--cpu={LONGEST}:{LONGEST + 10}", self.program, *words], cwd=self.folder, check=False,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        if abs(done.returncode) % 128 == signal.SIGXCPU:
             self.trial.fail("time", f"above {LONGEST} s", LONGEST)
-            raise Ended from None
+            raise Ended
         self.judge(done, output)
         missed, doubted = done.returncode == 4, bool(re.search(r"^  doubt ", done.stderr, re.MULTILINE))
         if missed and self.trial.outcome in ("held", "doubted"):
