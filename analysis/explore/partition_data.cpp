@@ -46,6 +46,7 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
   add("phi_large", points, &FitPoint::phi_large);
   add("frames", points, &FitPoint::frames);
   add("window", points, &FitPoint::window);
+  add("within", points, &FitPoint::within);
   add("begin", data.samples, [](const LayerSample& sample) { return sample.key.begin; });
   add("bottom", data.samples, [](const LayerSample& sample) { return sample.key.bottom; });
   add("top", data.samples, [](const LayerSample& sample) { return sample.key.top; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
+#include "analysis/frames/coarse_graining.hpp"
 #include "analysis/frames/grouping.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
@@ -13,9 +14,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace grseg {
@@ -167,20 +170,82 @@ Observations observations_of(const std::vector<FitTable>& tables, const std::vec
   return numbers;
 }
 
+/// Finds the rows of the next layers in the same window.
+class Neighbours {
+ public:
+  explicit Neighbours(const std::vector<FitRow>& rows) : rows_(rows)
+  {
+    for (std::size_t k = 0; k < rows.size(); ++k) in_order_[place_of(rows[k].key)] = k;
+  }
+  /// The row of the next layer below or above row k, if it contains grains of the pair.
+  std::optional<std::size_t> below(std::size_t k, const SpeciesPair& pair) const
+  {
+    const auto own = in_order_.find(place_of(rows_[k].key));
+    if (own == in_order_.begin()) return {};
+    return if_adjacent(std::prev(own)->second, k, std::prev(own)->second, pair);
+  }
+  std::optional<std::size_t> above(std::size_t k, const SpeciesPair& pair) const
+  {
+    const auto next = std::next(in_order_.find(place_of(rows_[k].key)));
+    if (next == in_order_.end()) return {};
+    return if_adjacent(k, next->second, next->second, pair);
+  }
+
+ private:
+  using Place = std::tuple<double, double, double>;  // begin and end of the window, bottom
+  static Place place_of(const LayerKey& key) { return {key.begin, key.end, key.bottom}; }
+
+  std::optional<std::size_t> if_adjacent(std::size_t lower, std::size_t upper, std::size_t found,
+                                         const SpeciesPair& pair) const
+  {
+    const auto &low = rows_[lower].key, &high = rows_[upper].key;
+    const auto& content = rows_[found].sums.content;
+    const bool adjacent = low.begin == high.begin && low.end == high.end &&
+                          std::abs(high.bottom - low.top) < 1e-6 * (low.top - low.bottom);
+    if (!adjacent || !(content[pair.smaller] + content[pair.larger] > 0)) return {};
+    return found;
+  }
+
+  const std::vector<FitRow>& rows_;
+  std::map<Place, std::size_t> in_order_;
+};
+
 void add_samples(const FitTable& run, const UsedRows& used, const Observations& observations,
                  FitData& data)
 {
   data.tables.push_back(run.table->name);
-  const FitRow* last = nullptr;
+  const auto first = data.rows.size();
+  for (const auto& row : run.rows) data.rows.push_back(row.sums);
+  const Neighbours neighbours(run.rows);
   for (const auto& [row, pair] : used) {
-    if (row != last) data.rows.push_back(row->sums);
     if (data.samples.empty()) data.window = row->key.end - row->key.begin;
-    last = row;
     auto& sample = data.samples.emplace_back(sample_of(*row, pair, run.species, data.dimension));
     sample.window = observations.at({run.table, {row->key.begin, row->key.end}});
     sample.table = data.tables.size() - 1;
-    sample.row = data.rows.size() - 1;
+    const auto k = static_cast<std::size_t>(row - run.rows.data());
+    sample.row = first + k;
+    if (const auto next = neighbours.below(k, pair)) sample.below = first + *next;
+    if (const auto next = neighbours.above(k, pair)) sample.above = first + *next;
+    sample.spread = run.spread;
   }
+}
+
+/// phi_L of a pair of species in a row.
+double phi_large(const ContactSums<3>& sums, const SpeciesPair& pair)
+{
+  const double small = sums.content[pair.smaller], large = sums.content[pair.larger];
+  return large / (small + large);
+}
+
+/// LayerSample::spread of the layers of a table. Kernels: coarse_graining.hpp.
+double spread_of(const Table& table)
+{
+  constexpr double of_layer = 1.0 / 12;
+  const auto assign = header_or(table, "assign", "");
+  const auto kernel = std::ranges::find(kernel_shapes, assign, &Choice<KernelShape>::word);
+  if (kernel == std::end(kernel_shapes)) return of_layer;
+  const double width = table.header_positive("width") / table.header_positive("layer");
+  return of_layer + Kernel(kernel->value, width).variance();
 }
 
 void require_alike(const FitTable& a, const FitTable& b)
@@ -246,6 +311,7 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
   for (const auto& table : tables) {
     const auto species = species_of(table);
     all.push_back({&table, species, read_rows(table, species, quantity, rules)});
+    all.back().spread = spread_of(table);
     require_alike(all.front(), all.back());
   }
   const auto runs = find_runs(tables);
@@ -282,22 +348,48 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
   return data;
 }
 
+namespace {
+
+/// The chosen component of the stresses of two species, N/m (3D: Pa).
+struct PairStress {
+  double small, large, total;
+};
+
+/// FitPoint::within. stress_of(row): total stress of a row.
+template <class StressOf>
+double part_within(const FitData& data, const LayerSample& sample, const StressOf& stress_of)
+{
+  const auto below = sample.below.value_or(sample.row), above = sample.above.value_or(sample.row);
+  const double layers = sample.below.has_value() + sample.above.has_value();
+  const double stress = stress_of(sample.row);
+  if (!(layers > 0) || !(stress > 0)) return 0;
+  const double rise =
+      phi_large(data.rows[above], sample.pair) - phi_large(data.rows[below], sample.pair);
+  return sample.spread * rise * (stress_of(above) - stress_of(below)) / (layers * layers * stress);
+}
+
+}  // namespace
+
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                                  const FitSettings& settings)
 {
-  const auto of = [&](const Tensor3& stress) {
-    return settings.component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
-  };
   const auto stresses = listed(data.rows, [&](const ContactSums<3>& sums) {
     return partial_stress(sums, rule, settings.base);
   });
+  const auto stress_of = [&](std::size_t row, const SpeciesPair& pair) {
+    const auto of = [&](const Tensor3& stress) {
+      return settings.component == Component::yy ? stress(1, 1) : stress.trace() / data.dimension;
+    };
+    const auto& stress = stresses[row];
+    const double small = of(stress.of_species[pair.smaller]),
+                 large = of(stress.of_species[pair.larger]);
+    return PairStress{small, large,
+                      stress.of_species.size() == 2 ? of(stress.total) : small + large};
+  };
   std::vector<FitPoint> points;
   points.reserve(data.samples.size());
   for (const auto& sample : data.samples) {
-    const auto& stress = stresses[sample.row];
-    const double small = of(stress.of_species[sample.pair.smaller]),
-                 large = of(stress.of_species[sample.pair.larger]);
-    const double total = stress.of_species.size() == 2 ? of(stress.total) : small + large;
+    const auto [small, large, total] = stress_of(sample.row, sample.pair);
     if (!std::isfinite(small + large + total))
       throw FormatError(fmt::format(
           "{}: the stress ({}) by {} is not finite: the table left out a sum that it needs "
@@ -305,6 +397,9 @@ std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
           data.tables[sample.table], word_of(settings.component, components), rule.name()));
     points.push_back({sample.window, sample.phi_large, sample.weight, sample.frames,
                       sample.size_ratio, small, large, total});
+    if (settings.thickness == Thickness::removed)
+      points.back().within = part_within(
+          data, sample, [&](std::size_t row) { return stress_of(row, sample.pair).total; });
   }
   return points;
 }

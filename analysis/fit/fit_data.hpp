@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,8 @@ struct LayerSample {
   double size_ratio = 0;   // nominal diameters, larger over smaller species
   std::size_t table = 0;   // index in FitData::tables
   std::size_t row = 0;     // index in FitData::rows
+  std::optional<std::size_t> below = {}, above = {};  // rows of the next layers in the same window
+  double spread = 0;  // second moment of the layer's or kernel's weight over its thickness squared
   SpeciesPair pair = {};
   LayerKey key = {};
 
@@ -103,7 +106,7 @@ struct FitData {
   std::vector<std::string> tables;      // names of the tables
   SpeciesList species;                  // species of the first table; all tables use its names
   double window = 0;                    // length of the first window, s
-  // Sums of the used rows. Kinetic sums have no mixed part, so they are the same under every rule.
+  // Sums of all rows. Kinetic sums have no mixed part, so they are the same under every rule.
   std::vector<ContactSums<3>> rows = {};
   std::vector<LayerSample> samples = {};
   FilterCount count;
@@ -128,6 +131,7 @@ struct FitTable {
   std::vector<FitRow> rows;
   std::size_t flow = 0;
   std::size_t run = 0;  // number of the run; tables of one run have the same number
+  double spread = 0;    // LayerSample::spread
 };
 
 /// Reads tables of grseg-stress (contact) or grseg-kinetic. Throws FormatError if a table lacks a
@@ -152,18 +156,34 @@ struct FitPoint {
   double frames = 1;
   double size_ratio = 0;                   // nominal d_L/d_S
   double small = 0, large = 0, total = 0;  // chosen stress component, N/m (3D: Pa)
+  double within = 0;                       // part of psi_L - phi_L by gradients inside the layer
 
   double ratio() const { return (1 - phi_large) / phi_large; }  // x
   bool has_logarithm() const { return small > 0 && large > 0; }
   /// psi_L - phi_L, whose slope over product() is B (Staron & Phillips 2015, eq. 3).
-  double excess() const { return large / total - phi_large; }
+  double excess() const { return large / total - within - phi_large; }
   double product() const { return phi_large * (1 - phi_large); }  // phi_L phi_S
 };
+
+/// Treatment of the part of B that the thickness of layers adds. Where phi_L and the stress sigma
+/// both vary in a layer, its means give
+///
+///   psi_L - phi_L  =  (mean of phi_L sigma)/(mean of sigma) - (mean of phi_L)  =  phi_L' sigma' m/sigma
+///
+/// even if large grains bear the share phi_L of the stress at every height (B = 0). m is the second
+/// moment of the weight with which the mean is taken: h^2/12 for a layer of thickness h, w^2 for a
+/// Gaussian of width w. The equation is exact for linear profiles.
+enum class Thickness { removed, kept };
+inline constexpr Choice<Thickness> thicknesses[] = {
+    {"removed", Thickness::removed,
+     "take out what gradients inside a layer add, from differences to the next layers"},
+    {"kept", Thickness::kept, "B of the layers' means"}};
 
 struct FitSettings {
   Component component = Component::yy;
   BasePart base = BasePart::contact_point;
   Population over = Population::automatic;  // population of the intervals
+  Thickness thickness = Thickness::kept;
 };
 
 /// Points of the fit, in the order of data.samples. Throws FormatError, which names the table, if a

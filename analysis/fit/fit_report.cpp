@@ -128,6 +128,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   }
   add("share", {fit.share});
   add("neutral", {fit.neutral});
+  add("B_of_thickness", {fit.of_thickness});
   add_measured("B_minus_size", fit.minus_size);
   if (fit.size_exponent) add("size_exponent", *fit.size_exponent, fit.over);
   for (const auto& [name, place] : estimator_columns)

@@ -301,13 +301,18 @@ FitData of_flow(const FitData& data, std::size_t flow)
   window_of.reserve(flow_of_window.size());
   std::size_t own = 0;
   for (const auto of : flow_of_window) window_of.push_back(of == flow ? own++ : own);
-  std::map<std::size_t, std::size_t> row_of;
+  std::map<std::size_t, std::size_t> rows;
+  const auto row_of = [&](std::size_t row) {
+    const auto [entry, fresh] = rows.try_emplace(row, part.rows.size());
+    if (fresh) part.rows.push_back(data.rows[row]);
+    return entry->second;
+  };
   for (auto sample : data.samples) {
     if (flow_of_window[sample.window] != flow) continue;
-    const auto [entry, fresh] = row_of.try_emplace(sample.row, part.rows.size());
-    if (fresh) part.rows.push_back(data.rows[sample.row]);
     sample.window = window_of[sample.window];
-    sample.row = entry->second;
+    sample.row = row_of(sample.row);
+    for (auto* next : {&sample.below, &sample.above})
+      if (*next) *next = row_of(**next);
     part.samples.push_back(sample);
   }
   return part;

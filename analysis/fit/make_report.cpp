@@ -81,6 +81,8 @@ po::options_description FitOptions::description()
       ("part of the stress of a contact with base or wall that its grain gets: " +
        list_of(base_parts) + " (default: as in the table)")
           .c_str());
+  add("thickness", word_option(&thickness, words_of(thicknesses)),
+      ("part of B that comes from the thickness of the layers: " + list_of(thicknesses)).c_str());
   add("pair", text(pair, "A,B"), "B of these two species, by name or number (default: all pairs)");
   add("exponent", po::bool_switch(&exponent),
       "also print the exponent a by which stress depends on grain size: sigma^nu/sigma = phi^nu "
@@ -195,6 +197,7 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
           {"preset", preset},
           {"quantity", s.quantity},
           {"component", s.component},
+          {"thickness", s.thickness},
           {"ratio_range", s.ratio_range},
           {"heights", heights_in_words(s.filters.heights)},
           {"times", all_times ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
@@ -229,10 +232,11 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   report.component = choose(s.component, "--component", components);
   const FitSettings settings{
       report.component, choose(base, "--base-part", base_parts),
-      s.over.empty() ? Population::automatic : choose(s.over, "--over", populations)};
+      s.over.empty() ? Population::automatic : choose(s.over, "--over", populations),
+      choose(s.thickness, "--thickness", thicknesses)};
   const auto rules = rules_of(s, tables[0]);
   auto read = rules;
-  if (!s.scan.empty()) read.push_back({PartitionRule::Kind::uniform});
+  read.push_back({PartitionRule::Kind::uniform});  // for p*
   auto all = read_fit_tables(tables, report.quantity, read);
   report.flows = find_flows(all, s.flows);
   for (const auto& table : tables) report.table_names.push_back(table.name);

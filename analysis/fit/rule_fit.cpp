@@ -95,6 +95,28 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
   return doubt_of_flows(fit, errors.single_runs(), flows);
 }
 
+/// B of the layers' means minus B (Thickness).
+double part_of_thickness(const FitData& data, const PartitionRule& rule, FitSettings settings)
+{
+  settings.thickness = Thickness::removed;
+  const auto removed = fit_points(data, rule, settings);
+  auto kept = removed;
+  for (auto& point : kept) point.within = 0;
+  return estimators_of(kept).B - estimators_of(removed).B;
+}
+
+/// Warning that gradients inside the layers move B by more than half its interval, usually "".
+std::string doubt_of_thickness(const RuleFit& fit, const FitSettings& settings)
+{
+  if (!(std::abs(fit.of_thickness) > (fit.high.B - fit.low.B) / 2)) return {};
+  return fmt::format(
+      "gradients inside the layers {} {:.2g} to B of their means, more than half the interval; {}",
+      settings.thickness == Thickness::kept ? "add" : "would add", fit.of_thickness,
+      settings.thickness == Thickness::kept
+          ? "--thickness removed takes it out"
+          : "thinner layers need less of this correction (grseg-stress --assign branch --layer 1dS)");
+}
+
 /// Points under the rule uniform:share.
 std::vector<FitPoint> points_at(const FitData& data, double share, const FitSettings& settings)
 {
@@ -171,6 +193,8 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
     remove_b(fit);
     return fit;
   }
+  fit.of_thickness = part_of_thickness(data, rule, settings);
+  add_doubt(fit, doubt_of_thickness(fit, settings));
   if (data.quantity == Quantity::kinetic) return fit;
   fit.minus_size =
       minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
@@ -195,10 +219,14 @@ AtShare at_share(const FitData& data, double share, const FitSettings& settings)
   const auto points = points_at(data, share, settings);
   auto slopes = points;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const double large = all[k].large - none[k].large, total = all[k].total - none[k].total;
-    const double psi = points[k].large / points[k].total;
+    const auto own = [k](const std::vector<FitPoint>& at) {
+      return at[k].large - at[k].within * at[k].total;
+    };
+    const double large = own(all) - own(none), total = all[k].total - none[k].total;
+    const double psi = own(points) / points[k].total;
     slopes[k].large = slopes[k].phi_large + (large - psi * total) / points[k].total;
     slopes[k].total = points[k].total > 0 ? 1 : 0;
+    slopes[k].within = 0;
   }
   return {window_sums(points, data.runs), window_sums(slopes, data.runs)};
 }

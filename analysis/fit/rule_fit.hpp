@@ -44,11 +44,12 @@ struct RuleFit {
   {
     return B_over[static_cast<std::size_t>(population)];
   }
-  LineOverShare line = {};     // B(p); the same for every rule
-  double neutral = no_number;  // B of contacts that ignore grain size (partition_rule.hpp)
-  Measured minus_size = {};    // B minus B by size, from the same samples
-  Dependence dependence;       // dependence of the windows in B (confidence.hpp)
-  std::string doubt;           // warnings about the intervals, usually empty
+  LineOverShare line = {};          // B(p); the same for every rule
+  double neutral = no_number;       // B of contacts that ignore grain size (partition_rule.hpp)
+  double of_thickness = no_number;  // B of the layers' means minus B (Thickness)
+  Measured minus_size = {};         // B minus B by size, from the same samples
+  Dependence dependence;            // dependence of the windows in B (confidence.hpp)
+  std::string doubt;                // warnings about the intervals, usually empty
   SpeciesPair pair = {};
   std::optional<Estimate> size_exponent = {};  // exponent over all pairs (fit_pairs.hpp)
 };

@@ -185,18 +185,19 @@ double gauss_below_mean(double a, double b)
   return (normal_below_primitive(b) - normal_below_primitive(a)) / (b - a);
 }
 
-/// psi, its integral from minus infinity, the means of both over an interval, and the reach.
+/// psi, its integral from minus infinity, the means of both over an interval, reach and variance.
 struct Functions {
   Function value, below;
   double (*mean)(double a, double b);
   double (*below_mean)(double a, double b);
-  double reach;
+  double reach, variance;
 };
 
 constexpr Functions shapes[] = {
-    {gauss, normal_below, gauss_mean, gauss_below_mean, gauss_reach},
-    {lucy, lucy_below, piecewise_mean<lucy>, piecewise_mean<lucy_below>, 1},
-    {heaviside, heaviside_below, piecewise_mean<heaviside>, piecewise_mean<heaviside_below>, 1}};
+    {gauss, normal_below, gauss_mean, gauss_below_mean, gauss_reach, 1},
+    {lucy, lucy_below, piecewise_mean<lucy>, piecewise_mean<lucy_below>, 1, 2.0 / 21},
+    {heaviside, heaviside_below, piecewise_mean<heaviside>, piecewise_mean<heaviside_below>, 1,
+     1.0 / 3}};
 
 const Functions& functions_of(KernelShape shape)
 {
@@ -215,6 +216,11 @@ Kernel::Kernel(KernelShape shape, double width) : shape_(shape), width_(width)
 double Kernel::reach() const
 {
   return functions_of(shape_).reach * width_;
+}
+
+double Kernel::variance() const
+{
+  return functions_of(shape_).variance * width_ * width_;
 }
 
 double Kernel::value(double u) const

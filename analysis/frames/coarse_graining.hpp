@@ -50,6 +50,8 @@ class Kernel {
 
   KernelShape shape() const { return shape_; }
   double width() const { return width_; }
+  /// Mean of u^2 with the weight psi, m^2.
+  double variance() const;
   /// Distance beyond which the integral of psi is less than round-off, m.
   double reach() const;
 

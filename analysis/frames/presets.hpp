@@ -37,6 +37,7 @@ inline constexpr PresetOption segregation[] = {
 };
 inline constexpr PresetOption fit[] = {
     {"partition", "uniform:0.66667", "size"},
+    {"thickness", "kept", "removed"},
     {"begin", "", "10"},  // s; the paper uses all stages; the flow accelerates for 5 to 10 s
 };
 

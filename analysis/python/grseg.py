@@ -1291,6 +1291,12 @@ class Fit:
     degrees_of_freedom: float
 
 
+def _spread(table):
+    """Second moment of the weight in the means of a layer, over its squared thickness (analysis/fit/fit_data.hpp)."""
+    variance = {"gauss": 1, "lucy": 2 / 21, "heaviside": 1 / 3}.get(table.header.get("assign"))
+    return 1 / 12 + (variance * (table.number("width") / table.number("layer")) ** 2 if variance else 0)
+
+
 class Points:
     """Points of a fit: layers and windows, selected as by grseg-fit with the same options. Methods return their
     stresses and estimates by rule.
@@ -1304,6 +1310,7 @@ class Points:
     heights        range of the layers: "inside" (without 4 d_S at the base and under the surface), "all", "4dS:56dS" or "4dS:"
     min_solid      least solid fraction of a layer, over the median of the run
     begin, end     range of the windows, s
+    thickness      part of B that gradients inside the layers add: "removed" or "kept" (grseg-fit --thickness)
 
     Fields of each point [n]: x = phi_S/phi_L, phi_large, weight (frames times grains of the rarer species), number of
     frames, size_ratio d_L/d_S, table (index), row (index in that table), run (index).
@@ -1314,7 +1321,7 @@ class Points:
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
-                 heights="inside", min_solid=0.5, begin=-math.inf, end=math.inf):
+                 heights="inside", min_solid=0.5, begin=-math.inf, end=math.inf, thickness="kept"):
         self.tables = [tables] if isinstance(tables, Table) else list(tables)
         if not self.tables or quantity not in ("contact", "kinetic") or component not in ("yy", "pressure"):
             raise ValueError("Points needs tables, quantity contact or kinetic, component yy or pressure")
@@ -1324,12 +1331,13 @@ class Points:
         self._ratio_range, self._heights = ratio_range, heights
         self._min_solid = min_solid
         self._times = begin, end
+        self._removed = {"removed": 1.0, "kept": 0.0}[thickness]
         runs, untold = _find_runs(self.tables)
         self.untold = [self.tables[k].name for k in untold]
         chosen = [self._select(table) for table in self.tables]
         self.table = np.repeat(np.arange(len(chosen)), [len(one["row"]) for one in chosen])
         self.run = np.array(runs)[self.table]
-        for name in ("row", "phi_large", "weight", "frames", "size_ratio"):
+        for name in ("row", "phi_large", "weight", "frames", "size_ratio", "_below", "_above", "_slope"):
             setattr(self, name, np.concatenate([one[name] for one in chosen]))
         if len(self.run) == 0:
             raise Error(f"{self.tables[0].name}: no layer and window passes the filters; B needs layers that contain "
@@ -1354,9 +1362,21 @@ class Points:
             raise Error(f"{self.tables[0].name}: a stress by {rule} is not finite; make the table again")
         return small, large, total
 
+    def _resolved(self, rule):
+        """stresses(), where the large grains' stress [n] is without the part that gradients inside the layers add."""
+        small, large, total = self.stresses(rule)
+        for number, table in enumerate(self.tables):
+            own = self.table == number
+            of_species, of_all = self._stresses_of(table, rule)
+            sums = of_all if len(table.species) == 2 else sum(of_species[:, species] for species in self.pair)
+            large[own] -= self._slope[own] * (sums[self._above[own]] - sums[self._below[own]])
+        return small, large, total
+
     def fit(self, rule="size"):
         """The Fit under a rule; for kinetic stress it is the same for every rule."""
         small, large, total = self.stresses(rule)
+        paper = _fits_of_the_paper(self.x, small, large, self.weight)
+        small, large, total = self._resolved(rule)
         adds_up = self.quantity == "kinetic" or rule != "drop"
         excess = self._excess(large, total)
         b = self._strength(large, total) if adds_up else math.nan
@@ -1374,7 +1394,6 @@ class Points:
             if adds_up:
                 none, everything = (self._b_at(p) for p in (0.0, 1.0))
                 share = (b - none) / (everything - none) if everything != none else math.nan
-        paper = _fits_of_the_paper(self.x, small, large, self.weight)
         if not adds_up:
             paper["paper_B"] = math.nan
         return Fit(rule, len(self), b, share, zero, slope, **paper, B_interval=of_b[0], p_zero_interval=of_zero[0],
@@ -1382,7 +1401,7 @@ class Points:
 
     def _b_at(self, share):
         """B if the larger grain of every mixed contact gets this share."""
-        _, large, total = self.stresses(f"uniform:{float(share)!r}")
+        _, large, total = self._resolved(f"uniform:{float(share)!r}")
         return self._strength(large, total)
 
     def b_of_p(self, shares):
@@ -1425,9 +1444,27 @@ class Points:
         d_small, d_large = (table.species[k].diameter for k in self.pair)
         power = table.dimension
         rarer = np.minimum(small / d_small**power, large / d_large**power)[use]
-        frames = table["frames"][use]
-        return {"row": np.flatnonzero(use), "phi_large": large[use] / (small + large)[use], "weight": frames * rarer,
-                "frames": frames, "size_ratio": np.full(len(frames), d_large / d_small)}
+        frames, row = table["frames"][use], np.flatnonzero(use)
+        with np.errstate(invalid="ignore"):
+            phi = large / (small + large)
+        below, above = self._neighbours(table, small + large > 0)
+        below, above = (np.where(next_row < 0, row, next_row) for next_row in (below[row], above[row]))
+        layers = np.maximum((below != row).astype(int) + (above != row), 1)
+        slope = self._removed * _spread(table) * (phi[above] - phi[below]) / layers**2
+        return {"row": row, "phi_large": phi[row], "weight": frames * rarer, "frames": frames,
+                "size_ratio": np.full(len(frames), d_large / d_small), "_below": below, "_above": above, "_slope": slope}
+
+    @staticmethod
+    def _neighbours(table, filled):
+        """Rows of the next layers below and above in the same window [rows]; -1 where there is no grain of the pair."""
+        t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
+        order = np.lexsort((y0, t1, t0))
+        low, high = order[:-1], order[1:]
+        adjacent = (t0[low] == t0[high]) & (t1[low] == t1[high]) & (np.abs(y0[high] - y1[low]) < 1e-6 * (y1 - y0)[low])
+        below, above = np.full(len(t0), -1), np.full(len(t0), -1)
+        below[high] = np.where(adjacent & filled[low], low, -1)
+        above[low] = np.where(adjacent & filled[high], high, -1)
+        return below, above
 
     def _in_range(self, table, solid, median):
         """True for rows inside the ranges of times and heights [rows]."""
@@ -1485,7 +1522,7 @@ class Points:
     def _zero(self):
         """p* by Newton's method, which needs one step if B is linear in the share p; and, at p*, psi_L - phi_L of each
         point and its derivative with respect to p."""
-        none, everything = self.stresses("uniform:0"), self.stresses("uniform:1")
+        none, everything = self._resolved("uniform:0"), self._resolved("uniform:1")
         change = [all_to - none_to for none_to, all_to in zip(none, everything)]
         share = 0.5
         for _ in range(8):

@@ -64,7 +64,7 @@ inline ContactSums<2> moved(ContactSums<2> sums, int window)
 struct TableRow {
   double begin, end, frames;
   ContactSums<2> sums;
-  // Bottom and top, m; NaN: the next layer of 0.02 m in its window.
+  // Bottom and top, m; NaN: 0.02 m, above the last layer of its window and a gap.
   double bottom = std::numeric_limits<double>::quiet_NaN(), top = bottom;
 };
 
@@ -85,7 +85,7 @@ inline Table stress_table(const std::vector<TableRow>& rows, double small_diamet
   std::map<double, int> layers;  // number of layers of each window so far
   for (const auto& row : rows) {
     const auto& sums = row.sums;
-    const double next = 0.02 * layers[row.begin]++;
+    const double next = 0.0202 * layers[row.begin]++;  // so that no layer has a neighbour
     const bool given = row.bottom == row.bottom;
     std::vector<double> cells{sums.content[0], sums.content[1]};
     for (const double cell : sum_cells(sums, kind)) cells.push_back(cell);

@@ -145,6 +145,8 @@ def check_fits(paths, options=None, **filters):
                 agree(f"{what}, {name}", value, numbers.get(name, math.nan), 1.0 if name in ("B", "paper_B") else 0.0)
     if len(tables[0].species) > 2:
         return
+    run_tool("fit", *fit, "--partition", "size")  # p* is the same whichever rules are asked for
+    agree(f"p* of {paths} beside one rule", points.fit().p_zero, numbers_of("fit.tsv")["size"]["p_zero"])
     run_tool("fit", *fit, "--scan", "0:1:0.125")
     rows, header = rows_of("fit.tsv")
     shares = [float(row["p"]) for row in rows]

@@ -89,7 +89,7 @@ export function stressOf(fit, rule, prefix = "") {
 
 /** {B, points, weight} as in grseg-fit. A point is one layer in one window; `which`: numbers of the points used, null for all. */
 export function sumsOf(fit, stress, which = null) {
-  const {phi_large, frames} = fit.arrays;
+  const {phi_large, within, frames} = fit.arrays;
   const {large: larges, total: totals} = stress;
   let excess = 0, weight = 0, points = 0;
   const n = (which ?? phi_large).length;
@@ -97,7 +97,7 @@ export function sumsOf(fit, stress, which = null) {
     const k = which ? which[m] : m;
     if (!(totals[k] > 0)) continue;
     const phi = phi_large[k];
-    excess += frames[k] * (larges[k] / totals[k] - phi);
+    excess += frames[k] * (larges[k] / totals[k] - within[k] - phi);
     weight += frames[k] * phi * (1 - phi);
     ++points;
   }

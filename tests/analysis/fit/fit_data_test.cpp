@@ -209,7 +209,7 @@ TEST(FitData, NumbersThatCannotBeAreRefusedWithTheirRow)
   for (const double frames : {0.0, -1.0, 2.5})
     EXPECT_TRUE(holds(refusal("frames", frames), "row 2: "));
   EXPECT_TRUE(holds(refusal("t1", 0), "row 2: a window from 0 to 0 s"));
-  EXPECT_TRUE(holds(refusal("y1", 0.01), "row 2: a layer from 0.02 to 0.01 m"));
+  EXPECT_TRUE(holds(refusal("y1", 0.01), "row 2: a layer from 0.0202 to 0.01 m"));
   EXPECT_TRUE(holds(refusal("M_yy", std::nan("")), "row 2, column M_yy[N m]"));
   for (const char* diameter : {"0", "-1", "nan", "0x1", "4dS"}) {
     auto table = good;
