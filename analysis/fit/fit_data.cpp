@@ -100,6 +100,13 @@ std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
   return &Count::used;
 }
 
+/// phi_L of a pair of species in a row.
+double phi_large(const ContactSums<3>& sums, const SpeciesPair& pair)
+{
+  const double small = sums.content[pair.smaller], large = sums.content[pair.larger];
+  return large / (small + large);
+}
+
 /// The sample of one row of a table and one pair of its species.
 LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesList& species,
                       int dimension)
@@ -108,7 +115,7 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
   const double d_small = species[pair.smaller].diameter, d_large = species[pair.larger].diameter;
   const auto size = [dimension](double d) { return dimension == 3 ? d * d * d : d * d; };
   const double rarer = std::min(small / size(d_small), large / size(d_large));
-  return {.phi_large = large / (small + large),
+  return {.phi_large = phi_large(row.sums, pair),
           .weight = row.key.frames * rarer,
           .frames = row.key.frames,
           .size_ratio = d_large / d_small,
@@ -228,13 +235,6 @@ void add_samples(const FitTable& run, const UsedRows& used, const Observations& 
     if (const auto next = neighbours.above(k, pair)) sample.above = first + *next;
     sample.spread = run.spread;
   }
-}
-
-/// phi_L of a pair of species in a row.
-double phi_large(const ContactSums<3>& sums, const SpeciesPair& pair)
-{
-  const double small = sums.content[pair.smaller], large = sums.content[pair.larger];
-  return large / (small + large);
 }
 
 /// LayerSample::spread of the layers of a table. Kernels: coarse_graining.hpp.
