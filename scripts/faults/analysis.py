@@ -145,8 +145,10 @@ FAULTS = [
     ("settings: compared digit by digit", "formats/cli/provenance.cpp",
      "constexpr double setting_round_off = 1e-9;", "constexpr double setting_round_off = 0;"),
     ("composition: of three species, a pair's share of all", "analysis/fit/fit_data.cpp",
-     "return {.phi_large = large / (small + large),",
-     "return {.phi_large = large / (row.solid() * row.sums.volume),"),
+     "return large / (small + large);",
+     "double all = 0; for (double one : sums.content) all += one; return large / all + 0 * small;"),
+    ("thickness: differences across two layers taken for those of one", "analysis/fit/fit_data.cpp",
+     "/ (layers * layers * stress)", "/ (layers * stress)"),
     # Estimators.
     ("B: weighted by phi_L phi_S without frames", "analysis/fit/estimators.cpp",
      "sum += point.frames * point.product() * of(point);", "sum += point.product() * of(point);"),

@@ -346,7 +346,9 @@ def fit():
         if share is None:  # the stresses do not add up to the total, so there is no B
             del own["B"], own["paper_B"]
         else:
-            own |= {"share": share, "neutral": neutral_b(share), "B_minus_size": own["B"] - by_size}
+            # The total stress of all layers is the same: no gradient of it inside a layer.
+            own |= {"share": share, "neutral": neutral_b(share), "B_minus_size": own["B"] - by_size,
+                    "B_of_thickness": 0}
         numbers |= {(rule, name): value for name, value in own.items()}
     return numbers
 
