@@ -46,7 +46,6 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
   add("phi_large", points, &FitPoint::phi_large);
   add("frames", points, &FitPoint::frames);
   add("window", points, &FitPoint::window);
-  add("within", points, &FitPoint::within);
   add("begin", data.samples, [](const LayerSample& sample) { return sample.key.begin; });
   add("bottom", data.samples, [](const LayerSample& sample) { return sample.key.bottom; });
   add("top", data.samples, [](const LayerSample& sample) { return sample.key.top; });
@@ -54,7 +53,11 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
     const auto of_rule = fit_points(data, rule, settings);
     add(std::string(name) + "_small", of_rule, &FitPoint::small);
     add(std::string(name) + "_large", of_rule, &FitPoint::large);
-    if (!rule.adds_up()) add(std::string(name) + "_total", of_rule, &FitPoint::total);
+    if (rule.adds_up())
+      add(std::string(name) + "_within", of_rule,
+          [](const FitPoint& point) { return point.within * point.total; });
+    else
+      add(std::string(name) + "_total", of_rule, &FitPoint::total);
   }
 }
 

@@ -35,6 +35,8 @@ struct PartitionSettings {
 ///   phi_large, frames, window, begin, bottom, top   composition and place, from fit_points() and its key
 ///   none_, all_, size_, contact_point_, drop_ + small, large   stresses of the two species under
 ///                           uniform:0, uniform:1, size, contact-point, drop; also drop_total
+///   none_, all_, size_, contact_point_ + within   stress of the large species that gradients inside
+///                           the layer add (FitPoint::within times the total); linear in p, too
 ///   power_large             by exponent of power_nodes() and sample; only if there are sums by power:Q
 ///
 /// Arrays of the same names with the prefix "layer_" are means over time, by layer. Stress under

@@ -183,7 +183,7 @@ struct FitSettings {
   Component component = Component::yy;
   BasePart base = BasePart::contact_point;
   Population over = Population::automatic;  // population of the intervals
-  Thickness thickness = Thickness::kept;
+  Thickness thickness = Thickness::removed;
 };
 
 /// Points of the fit, in the order of data.samples. Throws FormatError, which names the table, if a

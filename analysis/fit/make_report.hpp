@@ -15,7 +15,7 @@ namespace grseg {
 /// Options of grseg-fit, mostly as typed.
 struct FitOptions {
   std::vector<std::string> partition;
-  std::string component = "yy", quantity = "contact", thickness = "kept";
+  std::string component = "yy", quantity = "contact", thickness = "removed";
   std::string base, scan, ratio_range, pair, over, flows, fit;
   TableOptions output;
   int bootstrap = 0;

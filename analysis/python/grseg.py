@@ -1321,7 +1321,7 @@ class Points:
     """
 
     def __init__(self, tables, quantity="contact", component="yy", base=None, pair=None, ratio_range=(0.01, 100.0),
-                 heights="inside", min_solid=0.5, begin=-math.inf, end=math.inf, thickness="kept"):
+                 heights="inside", min_solid=0.5, begin=-math.inf, end=math.inf, thickness="removed"):
         self.tables = [tables] if isinstance(tables, Table) else list(tables)
         if not self.tables or quantity not in ("contact", "kinetic") or component not in ("yy", "pressure"):
             raise ValueError("Points needs tables, quantity contact or kinetic, component yy or pressure")

@@ -47,7 +47,7 @@ slopes := $(foreach slope,21 22 23 24 25 26,phi0.45-s$(slope))
 
 # Figures that can be drawn from the flows in TABLES.
 names := $(if $(call of,phi0.30-s23,stress),snapshots pressure-profile kinetic-profile balance) \
-  $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows) \
+  $(if $(call of,$(mixtures),stress),stress-ratio mixed-share kinetic-ratio pressure-estimates b-of-p b-of-flows b-of-composition) \
   $(if $(call of,phi0.45-s23,stress),micro-over-time step) $(if $(call of,$(slopes),stress),kinetic-shear-rate) \
   $(if $(wildcard $(KEPT)/combinations.tsv),combinations)
 pictures := $(names:%=$(work)/%.png)
@@ -117,6 +117,7 @@ $(call both,pressure-estimates): $(work)/paper.tsv $(work)/ends.tsv
 $(call both,micro-over-time): $(work)/time.tsv
 $(call both,b-of-p): $(work)/scan.tsv $(work)/stock.tsv
 $(call both,b-of-flows): $(work)/fits.tsv
+$(call both,b-of-composition): $(work)/numbers.tsv
 $(call both,combinations): $(work)/combined.tsv
 $(call both,balance): $(work)/balance-profile.tsv
 $(call both,kinetic-ratio): $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp

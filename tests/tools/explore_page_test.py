@@ -296,13 +296,13 @@ def check_plots(page):
         own = (of("y0") == bottom) & np.isfinite(mixed)
         if own.any():
             close(shown, (of("frames") * mixed)[own].sum() / of("frames")[own].sum(), f"mixed contacts' part of the stress at {bottom}")
-    arrays = {name: np.array(values) for name, values in page.run("""const {phi_large, frames, bottom, size_small, size_large} = grseg.page.fits[0].arrays;
-      return Object.fromEntries(Object.entries({phi_large, frames, bottom, size_small, size_large}).map(([name, values]) => [name, Array.from(values)]))""").items()}
+    arrays = {name: np.array(values) for name, values in page.run("""const {phi_large, frames, bottom, size_small, size_large, size_within} = grseg.page.fits[0].arrays;
+      return Object.fromEntries(Object.entries({phi_large, frames, bottom, size_small, size_large, size_within}).map(([name, values]) => [name, Array.from(values)]))""").items()}
     dots = drawn(page, "profiles", "#layers-plot circle", "strength.scales")
     for bottom in set(arrays["bottom"]):
         own = {name: values[arrays["bottom"] == bottom] for name, values in arrays.items()}
         phi, frames = own["phi_large"], own["frames"]
-        excess = own["size_large"] / (own["size_small"] + own["size_large"]) - phi
+        excess = (own["size_large"] - own["size_within"]) / (own["size_small"] + own["size_large"]) - phi
         of_layer = (frames * excess).sum() / (frames * phi * (1 - phi)).sum()
         shown = dots[abs(dots[:, 1] - bottom / d - 2).argmin(), 0]
         ends = page.run("return grseg.page.profiles.strength.scales.x.domain()")

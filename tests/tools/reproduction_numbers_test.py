@@ -9,6 +9,8 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 scripts = sys.argv.pop(1)
 sys.path.insert(0, os.path.join(scripts, "reproduce", "campaign"))
 import keep  # noqa: E402
@@ -259,7 +261,7 @@ class Reproduction(unittest.TestCase):
         few = {**contacts(8 * D, phi), "grains_L": 2}
         self.assertAlmostEqual(rise.terms(layers_of(self.table, [contacts(4 * D, phi, more_ends=2), few]))["ends"], terms["ends"], 12)
 
-    def test_windows_merge_by_frames_and_composition_that_grows_upward_has_a_positive_gradient(self):
+    def test_windows_merge_by_frames(self):
         rows = [contacts(4 * k * D, 0.2 + 0.1 * k, t=t, frames=frames) for t, frames in ((0, 10), (2.5, 30)) for k in range(4)]
         for row in rows[:4]:  # the first 2.5 s have no large grain
             row.update({name: 0.0 for name in row if name in ("area_L", "grains_L") or "_LL" in name or "_LS" in name or name[0] == "M"})
@@ -268,19 +270,34 @@ class Reproduction(unittest.TestCase):
             small = 0.25 * (1 - phi) + 0.75 * (1 - phi)
             self.assertAlmostEqual(layer.phi, 0.75 * phi / (small + 0.75 * phi), 12)
             self.assertEqual((layer.frames, layer.grains), (40, 0.75 * 99))
-        one = [contacts(4 * k * D, 0.2 + 0.1 * k) for k in range(4)]
-        self.assertAlmostEqual(layers_of(self.table, one)[0].gradient, 0.1 / 4, 12)
 
-    def test_a_trend_that_is_composition_is_gone_where_composition_is_equal(self):
-        low, high = [0.15, 0.3, 0.5], [0.3, 0.5, 0.7]
-        bed = lambda phis, beyond: layers_of(self.table, [contacts(4 * k * D, phi, beyond(phi))
-                                                          for k, phi in enumerate([0.5] + phis + [0.5], 0)])
-        by_layer = [(0.3, bed(low, lambda phi: 0.02 * phi)), (0.5, bed(high, lambda phi: 0.02 * phi))]
-        self.assertGreater(rise.trend_where_alike(by_layer, ()), 0.01)
-        self.assertAlmostEqual(rise.trend_where_alike(by_layer, ("phi",)), 0, 12)
-        # A trend of the mixture itself remains: 0.01 more on a difference of 0.2, times 3/(1 + phi_S).
-        of_mixture = [(0.3, bed([0.3, 0.3], lambda _: 0.01)), (0.5, bed([0.3, 0.3], lambda _: 0.02))]
-        self.assertAlmostEqual(rise.trend_where_alike(of_mixture, ("phi",)), 0.05 * 3 / 1.7, 12)
+    def test_a_trend_that_is_composition_is_none_of_the_mixture(self):
+        bed = lambda t, phis, beyond: [contacts(4 * (k + 1) * D, phi, beyond(phi) / (3 / (2 - phi)), t=t) for k, phi in enumerate(phis)]
+        runs = lambda beyond: [(whole, layers_of(self.table, bed(0, phis, lambda phi: beyond(whole, phi)) + bed(30, phis[::-1], lambda phi: beyond(whole, phi))))
+                               for whole, phis in ((0.3, [0.15, 0.5, 0.3]), (0.5, [0.3, 0.7, 0.5]))]
+        together = lambda mixtures: np.concatenate([layers for _, layers in mixtures]).view(np.recarray)
+        local, whole = runs(lambda _, phi: 0.01 + 0.02 * phi), runs(lambda whole, _: 0.02 * whole)
+        for mixtures, expected in ((local, {"phi": 0.02, "whole": 0}), (whole, {"phi": 0, "whole": 0.02})):
+            found = rise.followed(mixtures, together(mixtures), "excess")
+            for name, slope in ({"y": 0, "t": 0} | expected).items():
+                self.assertAlmostEqual(found[name], slope, 12, name)
+        self.assertAlmostEqual(rise.of_composition(together(local), "excess")[1], 0.01 + 0.02 * 0.15, 12)
+
+    def test_what_gradients_inside_a_layer_add_is_no_part_of_b(self):
+        """Straight profiles with B = 0: the mean of phi_L sigma in a layer of 4 d exceeds the product of means by 16/12 phi' sigma'."""
+        rows = []
+        for k in range(6):
+            phi, pressure = 0.8 - 0.1 * k, 1.2 - 0.15 * k
+            row = contacts(4 * k * D, phi)
+            for name in [name for name in row if name.endswith(("_xx", "_yy"))]:
+                row[name] *= pressure
+            for c in ("xx", "yy"):  # given to contacts of large grains, taken from those of small ones
+                row[f"A_LL_{c}"] += 100 * 0.1 * 0.15 / 12
+                row[f"A_SS_{c}"] -= 100 * 0.1 * 0.15 / 12
+            rows.append(row)
+        layers = layers_of(self.table, rows)
+        self.assertLess(abs(layers.excess).max(), 1e-14)
+        self.assertGreater(layers.kept.min(), 1e-3)
 
     def test_separated_species_have_gone_all_the_way_and_mixed_ones_half_of_it(self):
         d, layers = 0.005, 10

@@ -59,16 +59,19 @@ function ofPower(fit, get, Q) {
   for (let node = 0; node < weights.length; ++node)
     for (let k = 0; k < n; ++k) large[k] += weights[node] * nodes[node * n + k];
   const small = total.map((value, k) => value - large[k]);
-  return {small, large, total};
+  return {small, large, total, within: get("none_within")};  // two species: the same under every rule
 }
 
-/** Stresses under a rule, {small, large, total}, each by layer and window; with `prefix` "layer_", means over time by layer. */
+/**
+ * Stresses under a rule, {small, large, total, within}, each by layer and window; with `prefix` "layer_", means over time by
+ * layer. `within`: the part of `large` that gradients inside the layers add.
+ */
 export function stressOf(fit, rule, prefix = "") {
   const get = (name) => fit.arrays[prefix + name];
   const uniform = (p) => {
     const small = mixed(get("none_small"), get("all_small"), p);
     const large = mixed(get("none_large"), get("all_large"), p);
-    return {small, large, total: added(small, large)};
+    return {small, large, total: added(small, large), within: mixed(get("none_within"), get("all_within"), p)};
   };
   switch (rule.kind) {
     case "uniform":
@@ -78,26 +81,26 @@ export function stressOf(fit, rule, prefix = "") {
     case "power":
       return hasPowers(fit) ? ofPower(fit, get, rule.value) : uniform(powerShare(fit.size_ratio, rule.value));
     case "drop":
-      return {small: get("drop_small"), large: get("drop_large"), total: get("drop_total")};
+      return {small: get("drop_small"), large: get("drop_large"), total: get("drop_total"), within: get("none_within")};
     default: {
       const name = rule.kind.replace("-", "_");
       const small = get(`${name}_small`), large = get(`${name}_large`);
-      return {small, large, total: added(small, large)};
+      return {small, large, total: added(small, large), within: get(`${name}_within`)};
     }
   }
 }
 
 /** {B, points, weight} as in grseg-fit. A point is one layer in one window; `which`: numbers of the points used, null for all. */
 export function sumsOf(fit, stress, which = null) {
-  const {phi_large, within, frames} = fit.arrays;
-  const {large: larges, total: totals} = stress;
+  const {phi_large, frames} = fit.arrays;
+  const {large: larges, total: totals, within} = stress;
   let excess = 0, weight = 0, points = 0;
   const n = (which ?? phi_large).length;
   for (let m = 0; m < n; ++m) {
     const k = which ? which[m] : m;
     if (!(totals[k] > 0)) continue;
     const phi = phi_large[k];
-    excess += frames[k] * (larges[k] / totals[k] - within[k] - phi);
+    excess += frames[k] * ((larges[k] - within[k]) / totals[k] - phi);
     weight += frames[k] * phi * (1 - phi);
     ++points;
   }

@@ -4,6 +4,7 @@ import os
 
 import errata
 from measured import Measured, Value
+from rise import CLASSES
 from tables import shared
 import targets
 import verdicts
@@ -22,6 +23,7 @@ CAPTIONS = {
     "micro-over-time": "6, first seed",
     "b-of-p": "B over the share p",
     "b-of-flows": "B and −B_κ, early and late",
+    "b-of-composition": "B of layers over their φ_L",
     "balance": "forces on large grains",
     "combinations": "choices that meet each number",
     "step": "z, f and z f over the step",
@@ -110,7 +112,7 @@ def pooled(m):
 
 
 def rise(m):
-    """Tables of the factors of B by mixture, and of the trend of B over mixtures (rise.py)."""
+    """Tables of the factors of B by mixture, of the trend of B over mixtures, and of B of layers (rise.py)."""
     flows = m.mixtures()
     of = lambda row, name, digits: m.number(row["flow"], f"rise_{name}").text(digits)
     one = lambda row: m.number("mixtures", f"rise_one_{row['phi']:g}").text(4)
@@ -118,10 +120,15 @@ def rise(m):
         ["Φ_L", "p_size − p*", "mixed", "geometry", "B with one p*"],
         [[f"{row['phi']:g}", of(row, "beyond", 4), of(row, "mixed", 3), of(row, "geometry", 3), one(row)] for row in flows])
     both = lambda name: [m.number("mixtures", f"rise_{prefix}{name}").text(3) for prefix in ("", "upper_")]
-    alike = {"phi": "at equal φ_L", "y": "at equal height"}
-    trends = [["B, sums"] + both("trend_B"), ["B with one p*"] + both("trend_one")]
-    trends += [[title] + both(f"alike_{name}") for name, title in alike.items()]
-    return "\n\n".join((factors, markdown(["change per unit of Φ_L", "all six mixtures", "Φ_L from 0.30 on"], trends)))
+    trends = markdown(["change per unit of Φ_L", "all six mixtures", "Φ_L from 0.30 on"],
+                      [["B, sums"] + both("trend_B"), ["B with one p*"] + both("trend_one")])
+    two = lambda name: [m.number("mixtures", f"rise_{which}_{name}").text(3) for which in ("excess", "kept")]
+    local = markdown(["φ_L of the layer", "B", "B of the layers' means"],
+                     [[f"{k / CLASSES:g} to {(k + 1) / CLASSES:g}"] + two(f"of_{k}") for k in range(CLASSES)])
+    follows = {"whole": "Φ_L of the flow, 0 to 1", "phi": "φ_L of the layer, 0 to 1", "y": "height, 0 to 60 d_S", "t": "time, 0 to 150 s"}
+    followed = markdown(["B of a layer changes over", "by", "B of the layers' means by"],
+                        [[title] + two(f"over_{name}") for name, title in follows.items()])
+    return "\n\n".join((factors, trends, local, followed))
 
 
 def source(m):

@@ -100,9 +100,9 @@ def differences(options, part):
             **early_less_late(options, part)}
 
 
-def layers_of(part, *window):
+def layers_of(part):
     """Pairs of Phi_L and layers inside, one per run."""
-    return [(run.phi, rise.layers_of(run.path("micro"), *window)) for run in part.runs]
+    return [(run.phi, rise.layers_of(run.path("micro"))) for run in part.runs]
 
 
 def mixed_share(options, part):
@@ -227,7 +227,7 @@ def numbers(options):
     lines += collected(options, "mixtures", together, mixed_share)
     lines += collected(options, "mixtures", together, estimates)
     lines += collected(options, "mixtures", together, differences)
-    lines += collected(options, "mixtures", together, lambda _, part: rise.trends(layers_of(part), layers_of(part, rise.LONG_WINDOW)))
+    lines += collected(options, "mixtures", together, lambda _, part: rise.trends(layers_of(part)))
     for name in sorted({run.flow for run in mixtures}):
         lines += collected(options, name, each(name), early_less_late)
         lines += collected(options, name, each(name), lambda _, part: rise.mixture(layers_of(part)[0][1]))

@@ -1,11 +1,12 @@
-"""The dependence of B on the mixture: B as a product of factors, and the trend of B over mixtures for layers that are alike.
+"""The dependence of B on the mixture: B as a product of factors, B over the composition of a layer, and what B follows.
 
 Sums of grseg-micro are merged into windows of WINDOW s, for layers inside. psi = sigma^L/sigma (yy, rule size), M is the
-stress of mixed contacts, and q = phi_L phi_S. Sums over layers and windows weighted by frames give B exactly as a product of
+stress of mixed contacts, and q = phi_L phi_S. `excess` is psi - phi_L without what gradients inside a layer add
+(grseg-fit --thickness removed), `kept` with it. Sums over layers and windows weighted by frames give B exactly as a product of
 three factors, without the bias that the logarithm of a ratio of few grains has:
 
-    B            = sum(psi - phi_L)/sum(q) = beyond x mixed x geometry
-    beyond       = sum(psi - phi_L)/sum(M/sigma) = p_size - p_star: the large grain's share of a mixed contact minus the
+    B            = sum(excess)/sum(q) = beyond x mixed x geometry
+    beyond       = sum(excess)/sum(M/sigma) = p_size - p_star: the large grain's share of a mixed contact minus the
                    share at which B = 0
     mixed        = sum(M/sigma)/sum(M/sigma of neutral contacts)
     geometry     = sum(M/sigma of neutral contacts)/sum(q); for neutral contacts M/sigma = q (1 + r)/(phi_L + r phi_S)
@@ -25,18 +26,17 @@ import numpy as np
 
 import tables
 
-WINDOW, LONG_WINDOW = 5, 25  # lengths of windows, s; in the longer one phi_L scatters less
+WINDOW = 5  # length of windows, s
 FEW = 3  # least number of grains of each species
 PAIRS = ("SS", "LS", "LL", "Sb", "Lb")
-# Edges of the classes in which layers count as alike: phi_L, height y in d_S, time t in s, gradient d phi_L/dy in 1/d_S.
-CLASSES = {"phi": (0.05, 0.1, 0.2, 0.4, 0.6, 0.8), "y": (20, 36), "t": (tables.EARLY, tables.LATE),
-           "gradient": (-0.02, -0.01, -0.003, 0.003, 0.01, 0.02)}
-ALIKE = ((), ("phi",), ("y",), ("gradient",), ("phi", "y"), ("phi", "y", "t"), ("phi", "y", "gradient"))
+CLASSES = 10  # classes of equal width of phi_L of a layer
+# What B of a layer may depend on: Phi_L of the flow, phi_L of the layer, height and time over those of the paper's flows.
+FOLLOWED = {"whole": None, "phi": 1, "y": 60, "t": 150}
 FROM = 0.3  # least Phi_L of the upper mixtures; layers of mixtures with less have few large grains
 
 
-def layers_of(path, window=WINDOW):
-    """Layers inside with both species, from one run's table of grseg-micro, in windows of `window` s.
+def layers_of(path):
+    """Layers inside with both species, from one run's table of grseg-micro, in windows of WINDOW s.
 
     Returns a record array. It includes sums over the frames of a window: contents, numbers of contacts n_ and normal forces f_
     by pair, stresses `small` and `large`; and numbers that follow from these sums. r is the ratio of diameters."""
@@ -45,24 +45,25 @@ def layers_of(path, window=WINDOW):
     r = table.number("large_diameter") / d
     use = ~np.isnan(table["y0"]) & (table["area_S"] + table["area_L"] > 0)
     column = lambda name: table[name][use]
-    at = np.column_stack([np.floor(column("t0") / window + 1e-6), (column("y0") / d).round(6)])
+    at = np.column_stack([np.floor(column("t0") / WINDOW + 1e-6), (column("y0") / d).round(6)])
     at, first, group = np.unique(at, axis=0, return_index=True, return_inverse=True)
     total = lambda *names: np.bincount(group.ravel(), column("frames") * sum(map(column, names)))
     of = {"frames": np.bincount(group.ravel(), column("frames")), "t": column("t0")[first],
           "y": (column("y0") + column("y1"))[first] / 2 / d, "r": np.full(len(at), r),
           "area_S": total("area_S"), "area_L": total("area_L"), "large": total("A_LL_yy", "A_Lb_yy", "Msize_yy")}
     of |= {f"n_{pair}": total(f"n_{pair}") for pair in PAIRS} | {f"f_{pair}": total(f"sum_fn_{pair}") for pair in PAIRS}
-    whole = total("A_SS_yy", "A_Sb_yy", "M_yy", "A_LL_yy", "A_Lb_yy")
-    whole[whole == 0] = np.nan
+    stress = total("A_SS_yy", "A_Sb_yy", "M_yy", "A_LL_yy", "A_Lb_yy")
+    whole = np.where(stress == 0, np.nan, stress)
     phi = of["area_L"] / (of["area_S"] + of["area_L"])
     q, thickness = phi * (1 - phi), (column("y1") - column("y0"))[first] / d
     of |= {"grains": np.minimum(total("grains_S"), total("grains_L")) / of["frames"], "small": whole - of["large"], "phi": phi, "q": q,
-           "excess": of["large"] / whole - phi, "mixed": total("M_yy") / whole, "by_size": total("Msize_yy") / whole,
-           "neutral": q * (1 + r) / (phi + r * (1 - phi)), "gradient": np.full(len(at), np.nan)}
+           "kept": of["large"] / whole - phi, "mixed": total("M_yy") / whole, "by_size": total("Msize_yy") / whole,
+           "neutral": q * (1 + r) / (phi + r * (1 - phi))}
     step = np.diff(at, axis=0)
     joined = (step[:, 0] == 0) & (abs(step[:, 1] - thickness[:-1]) < 2e-6)
-    between = np.flatnonzero(joined[1:] & joined[:-1]) + 1  # layers that have a layer below and one above
-    of["gradient"][between] = (phi[between + 1] - phi[between - 1]) / (2 * thickness[between])
+    below, above = np.arange(len(at)) - np.r_[False, joined], np.arange(len(at)) + np.r_[joined, False]
+    of["excess"] = of["kept"] - tables.part_within(phi[above] - phi[below], stress[above] - stress[below],
+                                                   np.maximum(above - below, 1), whole)
     layers = np.rec.fromarrays(list(of.values()), names=list(of))
     low, high = tables.INSIDE
     return layers[(layers.y > low) & (layers.y < high) & (layers.q > 0) & ~np.isnan(layers.excess)]
@@ -106,19 +107,20 @@ def terms(layers):
     return {**found, "log": sum(found.values()), "LS/neutral": mixed / neutral, "LS/random": mixed / random}
 
 
-def trend_where_alike(mixtures, names):
-    """Slope of B over Phi_L within classes of layers: least squares, weighted by frames times q, with a separate level for
-    each class. `mixtures` are pairs of Phi_L and layers."""
-    layers = np.concatenate([layers for _, layers in mixtures]).view(np.recarray)
-    phi = np.repeat([phi for phi, _ in mixtures], [len(layers) for _, layers in mixtures])
-    known = ~np.isnan(layers.gradient)
-    layers, phi = layers[known], phi[known]
-    classes = np.column_stack([np.zeros(len(layers))] + [np.digitize(layers[name], CLASSES[name]) for name in names])
-    group = np.unique(classes, axis=0, return_inverse=True)[1].ravel()
-    weight = layers.frames * layers.q
-    middle = np.bincount(group, weight * phi) / np.bincount(group, weight)
-    off = phi - middle[group]
-    return (off * layers.frames * layers.excess).sum() / (off**2 * weight).sum()
+def of_composition(layers, name):
+    """B from the sums of `excess` or `kept`, in each class of phi_L."""
+    of = np.minimum(layers.phi * CLASSES, CLASSES - 1).astype(int)
+    return np.bincount(of, layers.frames * layers[name], CLASSES) / np.bincount(of, layers.frames * layers.q, CLASSES)
+
+
+def followed(mixtures, layers, name):
+    """Slopes of B of a layer, from `excess` or `kept`, over each of FOLLOWED at equal others: least squares, weighted by frames
+    times q. `mixtures` are pairs of Phi_L and layers; `layers` are all of them."""
+    of = {"whole": np.repeat([phi for phi, _ in mixtures], [len(own) for _, own in mixtures])}
+    of |= {field: layers[field] / unit for field, unit in FOLLOWED.items() if unit}
+    weight = np.sqrt(layers.frames * layers.q)
+    at = np.column_stack([weight] + [weight * of[field] for field in FOLLOWED])
+    return dict(zip(FOLLOWED, np.linalg.lstsq(at, weight * layers[name] / layers.q, rcond=None)[0][1:]))
 
 
 def both(label, mixtures, slope):
@@ -136,19 +138,20 @@ def mixture(layers):
     return {f"rise_{name}": value for name, value in found.items()}
 
 
-def trends(mixtures, long):
+def trends(mixtures):
     """Trends over mixtures, from one seed of each. Slopes over Phi_L are for all mixtures and for those with Phi_L >= FROM.
-    Numbers: `beyond` of all mixtures together; B of each mixture with this common `beyond`; slopes of all numbers; slopes of B
-    within classes of ALIKE, for equal phi_L also with the longer windows of `long`."""
-    parts = [(phi, {**factors(layers), **terms(layers)}) for phi, layers in mixtures]
-    found = {"beyond": factors(np.concatenate([layers for _, layers in mixtures]).view(np.recarray))["beyond"]}
+    Numbers: `beyond` of all mixtures together; B of each mixture with this common `beyond`; slopes of all numbers; B in each
+    class of phi_L and slopes of B of a layer, of `excess` and of `kept`."""
+    layers = np.concatenate([own for _, own in mixtures]).view(np.recarray)
+    parts = [(phi, {**factors(own), **terms(own)}) for phi, own in mixtures]
+    found = {"beyond": factors(layers)["beyond"]}
     for phi, part in parts:
         part["one"] = found["beyond"] * part["mixed"] * part["geometry"]
         found[f"one_{phi:g}"] = part["one"]
     for name in parts[0][1]:
         found |= both(f"trend_{name}", parts, lambda points: statistics.linear_regression(
             [phi for phi, _ in points], [part[name] for _, part in points]).slope)
-    for names in ALIKE:
-        found |= both("_".join(("alike",) + names), mixtures, lambda part: trend_where_alike(part, names))
-    found |= both("alike_phi_long", long, lambda part: trend_where_alike(part, ("phi",)))
+    for name in ("excess", "kept"):
+        found |= {f"{name}_of_{k}": value for k, value in enumerate(of_composition(layers, name))}
+        found |= {f"{name}_over_{field}": slope for field, slope in followed(mixtures, layers, name).items()}
     return {f"rise_{name}": value for name, value in found.items()}

@@ -12,31 +12,42 @@ BED = 60  # height of the bed, d_S
 BLOCK = 60  # length of the blocks of a single run, s
 
 
+def stresses(sums):
+    """phi_L, the stress of large grains by size, and the total stress, from sums with the columns STRESS[5:]."""
+    of = dict(zip(STRESS[5:], sums))
+    small = of["A_SS_yy"] + of["M_yy"] - of["Msize_yy"] + of["A_Sb_yy"]
+    large = of["A_LL_yy"] + of["Msize_yy"] + of["A_Lb_yy"]
+    return of["area_L"] / (of["area_S"] + of["area_L"]), large, large + small
+
+
 def points_of(run, options):
-    """Points of a run, a row each: time, y/H, phi_L, psi_L - phi_L, frames, q_L/sqrt(g d_S), d_S dphi_L/dy, and the
-    variance of the number with q_L."""
+    """Points of a run, a row each: time, y/H, phi_L, psi_L - phi_L without what gradients inside the layers add, frames,
+    q_L/sqrt(g d_S), d_S dphi_L/dy, and the variance of the number with q_L."""
     sums, fluxes = (tables.table(run.path(name)) for name in ("stress", "segregation"))
     stress, flux = (np.stack([table[name] for name in names], 1) for table, names in ((sums, STRESS), (fluxes, FLUX)))
     d = sums.number("small_diameter")
     speed = np.sqrt(np.hypot(float(sums.header["gravity_x"]), float(sums.header["gravity_y"])) * d)
     at = {(round(row[0], 6), round(row[1], 9)): row for row in flux[~np.isnan(flux[:, 1])]}
-    groups = {}
+    groups, means = {}, {}
     for row in stress:
+        where = int(row[0] / options.window + 1e-6), round((row[2] + row[3]) / 2 / d, 3)
+        means[where] = means.get(where, 0) + row[4] * row[5:]
         other = at.get((round(row[0], 6), round(row[2], 9)))
-        if other is None or row[2] < (tables.INSIDE[0] - 1e-6) * d or row[3] > (tables.INSIDE[1] + 1e-6) * d:
-            continue
-        groups.setdefault((int(row[0] / options.window + 1e-6), round((row[2] + row[3]) / 2 / d, 3)), []).append((row, other))
+        if other is not None and row[2] > (tables.INSIDE[0] - 1e-6) * d and row[3] < (tables.INSIDE[1] + 1e-6) * d:
+            groups.setdefault(where, []).append((row, other))
+    of = {where: stresses(mean) for where, mean in means.items() if mean[:2].sum() > 0}
     points = []
     for (k, y), pairs in sorted(groups.items()):
-        s, q = (np.array([pair[n] for pair in pairs]) for n in (0, 1))
-        mean = dict(zip(STRESS[5:], (s[:, 4:5] * s[:, 5:]).sum(0)))
-        large = mean["A_LL_yy"] + mean["Msize_yy"] + mean["A_Lb_yy"]
-        small = mean["A_SS_yy"] + mean["M_yy"] - mean["Msize_yy"] + mean["A_Sb_yy"]
-        phi = mean["area_L"] / (mean["area_S"] + mean["area_L"])
+        thickness = round((pairs[0][0][3] - pairs[0][0][2]) / d, 3)
+        phi, large, whole = own = of[k, y]
+        below, above = (of.get((k, round(y + side * thickness, 3)), own) for side in (-1, 1))
+        layers = max((below is not own) + (above is not own), 1)
+        within = tables.part_within(above[0] - below[0], above[2] - below[2], layers, whole)
+        q = np.array([other for _, other in pairs])
         frames = q[:, 2].sum()
         flow, error = (q[:, 2] * q[:, 3]).sum() / frames, np.sqrt(((q[:, 2] * q[:, 4]) ** 2).sum()) / frames
-        points.append([(k + 0.5) * options.window, y / BED, phi, large / (large + small) - phi, frames, flow / speed,
-                       d * (q[:, 2] * q[:, 5]).sum() / frames, (error / speed) ** 2])
+        points.append([(k + 0.5) * options.window, y / BED, phi, large / whole - phi - within, frames,
+                       flow / speed, d * (q[:, 2] * q[:, 5]).sum() / frames, (error / speed) ** 2])
     points = np.array(points)
     return points[~np.isnan(points).any(1)]
 

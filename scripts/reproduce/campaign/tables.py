@@ -41,6 +41,12 @@ def line(x, y, weights=None):
     return level, slope, (1 / total + mx**2 / sxx, -mx / sxx, 1 / sxx), left
 
 
+def part_within(rise_of_phi, rise_of_stress, layers, stress):
+    """What gradients inside a layer add to psi_L - phi_L (Thickness of analysis/fit/fit_data.hpp), from the differences of phi_L
+    and of the stress across `layers` layers."""
+    return rise_of_phi * rise_of_stress / (12 * layers**2 * stress)
+
+
 class Run:
     def __init__(self, folder, name, match):
         self.folder, self.name = folder, name

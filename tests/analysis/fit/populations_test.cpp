@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/estimators.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
