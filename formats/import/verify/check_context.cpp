@@ -26,9 +26,9 @@ Waivers::Waivers(const std::vector<std::string>& texts)
       throw UsageError(fmt::format("--accept-residual '{}': '{}' is not a check; the checks are {}",
                                    excerpt(text), excerpt(name), fmt::join(check_names, ", ")));
     double value = 0;
-    if (!parse_finite(number, value) || !(value > 0))
+    if (!parse_finite(number, value) || !(value >= 0))
       throw UsageError(fmt::format(
-          "--accept-residual '{}' needs a positive number, as in balance=0.1", excerpt(text)));
+          "--accept-residual '{}' needs a number of 0 or more, as in balance=0.1", excerpt(text)));
     if (!largest_.emplace(name, value).second)
       throw UsageError(fmt::format("--accept-residual names {} twice", name));
   }
