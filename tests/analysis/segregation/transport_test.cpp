@@ -158,6 +158,34 @@ TEST(TransportColumn, SmallGrainsThatRiseMirrorLargeGrainsThatSink)
   EXPECT_LT(most(rising.phi_large(), mirrored), 1e-12);
 }
 
+/// Rise of of(phi_L) between the cells at a quarter and at three quarters of 100 cells at the end.
+template <class Of>
+double final_rise(const TransportLaw& law, const Of& of)
+{
+  TransportColumn bed(cells(100, [](double) { return 0.5; }), height);
+  bed.advance(2000, law);
+  return of(bed.phi_large()[75]) - of(bed.phi_large()[25]);
+}
+
+TEST(TransportColumn, TheSteadyProfileFollowsCoefficientsThatDependOnHeightAndComposition)
+{
+  constexpr double S = 1e-3, D = 1e-4, low = 0.255 * height, high = 0.755 * height;
+  // D (1 + y/height): ln(phi_L/phi_S) = S height/D ln(1 + y/height) + constant.
+  EXPECT_NEAR(final_rise(
+                  [](double y, double) {
+                    return TransportRates{S, D * (1 + y / height)};
+                  },
+                  [](double phi) { return std::log(phi / (1 - phi)); }),
+              S * height / D * std::log((height + high) / (height + low)), 1e-3);
+  // S (1 + phi_L): ln(phi_L/sqrt(1 - phi_L^2)) = S y/D + constant.
+  EXPECT_NEAR(final_rise(
+                  [](double, double phi) {
+                    return TransportRates{S * (1 + phi), D};
+                  },
+                  [](double phi) { return std::log(phi / std::sqrt(1 - phi * phi)); }),
+              S / D * (high - low), 1e-3);
+}
+
 TEST(TransportColumn, NothingMovesWithoutRates)
 {
   const auto from = filled_up_to(20, 0.13);
