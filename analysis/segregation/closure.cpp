@@ -350,6 +350,20 @@ NamedNumbers closure_summary(const ClosureData& data, const std::vector<Partitio
   return report.summary;
 }
 
+FluxCoefficients flux_coefficients(const ClosureData& data)
+{
+  const Regressions regressions(data);
+  if (regressions.is_singular()) return {};
+  const auto flux = regressions.on_both([](const ClosurePoint& p) { return p.flux; });
+  double weight = 0, d = 0, d2 = 0;
+  for (const auto& point : data.points) {
+    weight += point.weight;
+    d += point.weight * point.shear_rate * point.diameter;
+    d2 += point.weight * point.shear_rate * point.diameter * point.diameter;
+  }
+  return {flux[0].value, flux[1].value, d / weight, d2 / weight};
+}
+
 std::string closure_population(std::size_t runs)
 {
   return runs > 1

@@ -51,6 +51,17 @@ struct ClosureResampling {
 NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
                              const ClosureResampling& resampling);
 
+/// Coefficients of the flux, to predict other runs: q_L = (B/c) X - (d/c) G over all points, and the
+/// means of the shear rate of the bed times d and times d^2, with d = phi_S d_S + phi_L d_L and the
+/// weights of the regression. NaN without shear rates in the tables.
+struct FluxCoefficients {
+  double B_over_c = no_number;  // s
+  double d_over_c = no_number;  // m^2/s
+  double shear_d = no_number;   // mean shear rate x d, m/s
+  double shear_d2 = no_number;  // mean shear rate x d^2, m^2/s
+};
+FluxCoefficients flux_coefficients(const ClosureData& data);
+
 /// The population of the intervals for this number of runs, as a sentence without its full stop.
 std::string closure_population(std::size_t runs);
 

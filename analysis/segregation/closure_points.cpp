@@ -258,6 +258,8 @@ double gravity_of(const RunTables& tables)
 struct RunRows {
   std::map<Place, LayerMotion> motions;
   std::map<Place, Stress> stresses;
+  std::map<Span, double> shear_rates;  // empty: not in the table
+  LengthUnits units;
   double gravity;
 };
 
@@ -265,13 +267,16 @@ ClosurePoint point_of(const LayerMotion& motion, const Stress& stress, const Run
                       const std::vector<PartitionRule>& rules)
 {
   const auto& key = motion.key;
-  const auto& [motions, stresses, gravity] = rows;
+  const auto& [motions, stresses, shear_rates, units, gravity] = rows;
   ClosurePoint point;
   point.frames = key.frames;
   point.weight = key.frames * (motion.small + motion.large);
   point.flux = motion.flux;
   point.gradient = motion.gradient;
   point.diffusivity = motion.diffusivity;
+  point.diameter = (1 - motion.phi) * units.small_diameter + motion.phi * units.large_diameter;
+  if (const auto found = shear_rates.find({key.begin, key.end}); found != shear_rates.end())
+    point.shear_rate = found->second;
   const double fall =
       add_forces(point, motion, neighbour(motions, key, -1), neighbour(motions, key, 1), gravity);
   add_window_before(point, motion, motions, gravity);
@@ -297,9 +302,10 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
               const ClosureFilter& filter, std::vector<TableWindow>& windows, ClosureData& data)
 {
   const auto& segregation = *tables.segregation;
-  RunRows rows{{}, {}, gravity_of(tables)};
   const LengthUnits units{segregation.header_positive("small_diameter"),
                           segregation.header_positive("large_diameter")};
+  RunRows rows{{}, {}, {}, units, gravity_of(tables)};
+  if (segregation.has_column("shear_rate")) rows.shear_rates = shear_rates_of(segregation);
   const auto list = motions_of(segregation, data.has_kinetic);
   const auto layers = listed(list, [](const LayerMotion& motion) {
     return LayerSolid{motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()};
@@ -373,6 +379,18 @@ ClosureData read_closure(const std::vector<Table>& tables, const std::vector<Par
                     "and have neighbours; choose other --begin, --end, --heights or --min-solid",
                     data.rows));
   return data;
+}
+
+std::map<Span, double> shear_rates_of(const Table& table)
+{
+  const char* remedy = "a table of grseg-segregation has it";
+  const auto keys = read_layer_keys(table, remedy);
+  const auto column = find_column(table, "shear_rate[1/s]", remedy);
+  std::map<Span, double> rates;
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (std::isnan(keys[row].bottom))
+      rates[{keys[row].begin, keys[row].end}] = table.rows[row][column];
+  return rates;
 }
 
 }  // namespace grseg

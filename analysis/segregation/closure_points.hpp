@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
 #include "analysis/statistics/confidence.hpp"
 #include "analysis/stress/partition_rule.hpp"
@@ -9,6 +10,7 @@
 #include "formats/cli/words.hpp"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,8 @@ struct ClosurePoint {
          inertia = no_number;       // m/s^2; NaN: not in the table
   double diffusivity = no_number;   // m^2/s, from displacements
   double weight_above = no_number;  // -sigma' by the table of stress over -sigma' by the balance
+  double shear_rate = no_number;    // of the bed, 1/s
+  double diameter = no_number;      // mean nominal diameter phi_S d_S + phi_L d_L, m
   // From the table of stress.
   double phi_large = 0;
   double product = 0;          // phi_L phi_S
@@ -83,5 +87,9 @@ struct ClosureData {
 /// or if layers or windows of the two differ. Throws RunError if no point is left.
 ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                          const ClosureFilter& filter);
+
+/// Shear rate of the bed in each window of a table of grseg-segregation, 1/s. Throws FormatError if
+/// the table has no such column.
+std::map<Span, double> shear_rates_of(const Table& table);
 
 }  // namespace grseg

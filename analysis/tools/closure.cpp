@@ -4,6 +4,7 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/segregation/closure_points.hpp"
 #include "analysis/segregation/named_numbers.hpp"
+#include "analysis/segregation/prediction.hpp"
 #include "analysis/tools/tool_main.hpp"
 #include "formats/cli/output.hpp"
 #include "formats/cli/provenance.hpp"
@@ -24,7 +25,8 @@ constexpr ToolInfo info{
     "coefficients of Gray & Thornton's closure from fluxes: B/c, d/c, and c under each rule.",
     "grseg-closure a.segregation.tsv a.stress.tsv ... [options] > closure.tsv",
     "  grseg-closure *.segregation.tsv *.stress.tsv --heights 4dS:56dS --begin 10\n"
-    "  grseg-closure *.segregation.tsv *.stress.tsv --partition size,half --instruments same\n"};
+    "  grseg-closure *.segregation.tsv *.stress.tsv --partition size,half --instruments same\n"
+    "  grseg-closure a.segregation.tsv a.stress.tsv --predict b.segregation.tsv   phi_L(y, t) of b\n"};
 
 struct Settings {
   ClosureFilter filter;
@@ -32,6 +34,8 @@ struct Settings {
   std::string instruments = "previous";
   int bootstrap = 1000;
   long seed = 1;
+  std::vector<std::string> predict;
+  OutputOptions profiles;
   TableOptions output;
   bool json = false, quiet = false;
 };
@@ -50,6 +54,11 @@ po::options_description options_into(Settings& s)
   add("bootstrap", po::value(&s.bootstrap)->default_value(s.bootstrap)->value_name("N"),
       "samples for the 95 % intervals; 0: no intervals");
   add("seed", po::value(&s.seed)->default_value(s.seed)->value_name("N"), "seed of the samples");
+  add("predict", po::value(&s.predict)->multitoken()->value_name("FILES"),
+      "tables of grseg-segregation of other runs: predict them from their first window by the fitted "
+      "flux, and by Trewhela, Ancey & Gray (2021); put this option last");
+  add("profiles", po::value(&s.profiles.path)->value_name("FILE"),
+      "write the predicted and measured phi_L to this table");
   s.filter.add_layers_to(options);
   s.filter.add_times_to(options);
   add("json", po::bool_switch(&s.json), "print JSON instead of a table");
@@ -59,12 +68,19 @@ po::options_description options_into(Settings& s)
 }
 
 /// Throws UsageError for impossible option values, before any table is read.
-void check(const Settings& s, const po::variables_map& values)
+void check(Settings& s, const po::variables_map& values)
 {
   if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
     throw UsageError(fmt::format("--bootstrap {}: it must be 0 or 100 to 100000", s.bootstrap));
   if (s.seed < 0) throw UsageError("--seed must not be negative");
   s.output.check(values);
+  s.profiles.overwrite = s.output.overwrite;
+  if (!s.profiles.path.empty()) {
+    if (s.predict.empty()) throw UsageError("--profiles needs --predict and the runs to predict");
+    if (s.profiles.path == s.output.path)
+      throw UsageError("--profiles and --output name the same file; name two");
+    s.profiles.check(values);
+  }
   s.filter.check();
 }
 
@@ -75,6 +91,24 @@ std::string text_of_times(const RowFilter& filter)
   };
   const auto times = fmt::format("{}:{}", text(filter.begin), text(filter.end));
   return times == ":" ? "all" : times;
+}
+
+/// Adds the predictions of other runs to `summary`, and writes their profiles.
+void predict_runs(const Settings& s, const std::vector<Table>& fitted, const ClosureData& data,
+                  const Header& header, NamedNumbers& summary)
+{
+  std::vector<Table> tables;
+  for (const auto& path : s.predict) tables.push_back(Table::read(path));
+  refuse_fitted_runs(tables, fitted);
+  const auto coefficients = flux_coefficients(data);
+  std::vector<Prediction> predictions;
+  for (const auto& table : tables) predictions.push_back(predict(table, coefficients, s.filter));
+  add_predictions(summary, predictions);
+  if (s.profiles.path.empty()) return;
+  auto profiles = prediction_table(predictions);
+  profiles.header = header;
+  for (const auto& table : tables) profiles.header.emplace_back("predicted", table.name);
+  write_whole(s.profiles, profiles.to_text());
 }
 
 void close(Settings& s, const po::variables_map& values, const std::string& command)
@@ -102,8 +136,9 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
                                {"seed", fmt::format("{}", s.seed)}});
   add_all(header, s.filter.lines());
   header.emplace_back("interval", "95 %");
-  const auto summary = closure_summary(
+  auto summary = closure_summary(
       data, rules, {static_cast<std::size_t>(s.bootstrap), static_cast<unsigned long>(s.seed)});
+  if (!s.predict.empty()) predict_runs(s, tables, data, header, summary);
   write_numbers(summary, header, info, s.output, s.json, s.quiet);
 }
 

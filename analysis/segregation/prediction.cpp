@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/segregation/prediction.hpp"
+
+#include "analysis/segregation/closure_points.hpp"
+#include "analysis/segregation/transport.hpp"
+#include "analysis/stress/contact_sums.hpp"
+#include "formats/core/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace grseg {
+namespace {
+
+constexpr std::size_t column_cells = 200;
+constexpr const char* remedy = "a table of grseg-segregation has it";
+
+/// What a law needs to know of a bed.
+struct PredictedBed {
+  double small_diameter, large_diameter;  // m
+  double gravity, cosine;                 // g cos(slope), m/s^2; cos(slope)
+  double solid, height;                   // solid fraction; height with it everywhere, m
+  double diameter;                        // mean nominal diameter, m
+  double shear_rate = 0;                  // 1/s
+
+  double mean_diameter(double phi_large) const
+  {
+    return (1 - phi_large) * small_diameter + phi_large * large_diameter;
+  }
+};
+
+TransportRates trewhela(const PredictedBed& bed, double height, double phi_large, bool intruder)
+{
+  constexpr double A = 0.108, B = 0.3744, C = 0.2712, E = 2.0957;
+  const double R = bed.large_diameter / bed.small_diameter, d = bed.mean_diameter(phi_large);
+  const double pressure = bed.solid * (bed.height - height) * bed.cosine;
+  const double size = (R - 1) + (intruder ? 0 : E * phi_large * (R - 1) * (R - 1));
+  const double spread = bed.shear_rate * d * d;
+  return {B * spread * size / (C * d + pressure), A * spread};
+}
+
+/// The laws in the order of prediction_laws.
+std::array<TransportLaw, prediction_laws.size()> laws_of(const PredictedBed& bed,
+                                                         const FluxCoefficients& fitted)
+{
+  const TransportRates constant{fitted.B_over_c * bed.gravity, fitted.d_over_c};
+  const double d = bed.diameter;
+  const TransportRates scaled{constant.S * bed.shear_rate * d / fitted.shear_d,
+                              constant.D * bed.shear_rate * d * d / fitted.shear_d2};
+  // Noise may make a fitted d negative, which no bed can have.
+  const auto uniform = [](TransportRates rates) {
+    rates.D = std::max(rates.D, 0.0);
+    return [=](double, double) { return rates; };
+  };
+  const auto by_place = [&](bool intruder) {
+    return [=](double height, double phi) { return trewhela(bed, height, phi, intruder); };
+  };
+  return {uniform(scaled), uniform(constant), by_place(false), by_place(true), uniform({})};
+}
+
+/// The windows of a table in order of time, with the layers that are not too loose, from the base
+/// upward.
+std::vector<PredictedWindow> windows_of(const Table& table, const RowFilter& filter)
+{
+  const auto keys = read_layer_keys(table, remedy);
+  const auto contents = content_columns(species_of(table), dimension_of(table));
+  const auto small = find_column(table, contents[0], remedy);
+  const auto large = find_column(table, contents[1], remedy);
+  std::vector<PredictedLayer> all;
+  std::vector<LayerSolid> solids;
+  for (std::size_t row = 0; row < keys.size(); ++row) {
+    const auto& key = keys[row];
+    if (std::isnan(key.bottom)) continue;
+    const double part = non_negative_cell(table, row, large);
+    const double content = part + non_negative_cell(table, row, small);
+    all.push_back({key, content, content > 0 ? part / content : 0});
+    solids.push_back({key.bottom, key.top, key.frames, content / key.volume});
+  }
+  const LengthUnits units{table.header_positive("small_diameter"),
+                          table.header_positive("large_diameter")};
+  auto whole_bed = filter;
+  whole_bed.heights = "all";
+  const auto range = whole_bed.range(units, solids);
+  std::map<Span, std::vector<PredictedLayer>> by_time;
+  for (const auto& layer : all)
+    if (layer.content > 0 && range.holds_window(layer.key) &&
+        layer.content / layer.key.volume >= range.least_solid)
+      by_time[{layer.key.begin, layer.key.end}].push_back(layer);
+  std::vector<PredictedWindow> windows;
+  for (auto& [span, layers] : by_time) {
+    std::ranges::sort(layers, {}, [](const auto& layer) { return layer.key.bottom; });
+    windows.push_back({span, std::move(layers)});
+  }
+  return windows;
+}
+
+double content_of(const PredictedWindow& window)
+{
+  double content = 0;
+  for (const auto& layer : window.layers) content += layer.content;
+  return content;
+}
+
+/// Mean over the part from `low` to `high` of a line that is divided at `edges`, of values that are
+/// constant between them. Edges ascend; low < high.
+double mean_between(double low, double high, const std::vector<double>& edges,
+                    const std::vector<double>& values)
+{
+  double sum = 0;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    sum += values[k] * std::max(0.0, std::min(high, edges[k + 1]) - std::max(low, edges[k]));
+  return sum / (high - low);
+}
+
+/// Edges of the layers of a window as shares of all its grains.
+std::vector<double> shares_below(const PredictedWindow& window)
+{
+  std::vector<double> shares{0};
+  const double all = content_of(window);
+  for (const auto& layer : window.layers) shares.push_back(shares.back() + layer.content / all);
+  return shares;
+}
+
+std::vector<double> equal_shares()
+{
+  std::vector<double> shares(column_cells + 1);
+  for (std::size_t k = 0; k <= column_cells; ++k) shares[k] = static_cast<double>(k) / column_cells;
+  return shares;
+}
+
+std::vector<double> cells_of(const PredictedWindow& window)
+{
+  const auto shares = shares_below(window), cells = equal_shares();
+  std::vector<double> measured, phi;
+  for (const auto& layer : window.layers) measured.push_back(layer.phi_large);
+  for (std::size_t k = 0; k < column_cells; ++k)
+    phi.push_back(mean_between(cells[k], cells[k + 1], shares, measured));
+  return phi;
+}
+
+PredictedBed bed_of(const Table& table, const PredictedWindow& first, double solid)
+{
+  const auto component = [&](const char* key) {
+    return table.has_header(key) ? table.header_number(key) : 0.0;
+  };
+  const double y = component("gravity_y");
+  const double g = std::hypot(component("gravity_x"), y, component("gravity_z"));
+  const auto& lowest = first.layers.front().key;
+  const double base = lowest.volume / (lowest.top - lowest.bottom);
+  double large = 0;
+  for (const auto& layer : first.layers) large += layer.content * layer.phi_large;
+  PredictedBed bed{table.header_positive("small_diameter"),
+                   table.header_positive("large_diameter"),
+                   -y,
+                   g > 0 ? -y / g : 0,
+                   solid,
+                   content_of(first) / (base * solid),
+                   0};
+  bed.diameter = bed.mean_diameter(large / content_of(first));
+  return bed;
+}
+
+double solid_of(const PredictedWindow& window)
+{
+  std::vector<LayerSolid> layers;
+  for (const auto& [key, content, phi, predicted] : window.layers)
+    layers.push_back({key.bottom, key.top, key.frames, content / key.volume});
+  return median_solid(layers);
+}
+
+/// Mean height of the large grains, m, if their share of each layer is of(layer).
+template <class Of>
+double mean_height(const PredictedWindow& window, const Of& of)
+{
+  double weight = 0, sum = 0;
+  for (const auto& layer : window.layers) {
+    weight += layer.content * of(layer);
+    sum += layer.content * of(layer) * (layer.key.bottom + layer.key.top) / 2;
+  }
+  return sum / weight;
+}
+
+double measured_height(const PredictedWindow& window)
+{
+  return mean_height(window, [](const PredictedLayer& layer) { return layer.phi_large; });
+}
+
+double predicted_height(const PredictedWindow& window, std::size_t law)
+{
+  return mean_height(window, [law](const PredictedLayer& layer) { return layer.predicted[law]; });
+}
+
+void add_law(NamedNumbers& numbers, const Prediction& run, std::size_t law)
+{
+  double weight = 0, squares = 0, of_heights = 0;
+  for (std::size_t k = 1; k < run.windows.size(); ++k) {
+    const auto& window = run.windows[k];
+    for (const auto& layer : window.layers) {
+      weight += layer.content;
+      squares += layer.content * std::pow(layer.predicted[law] - layer.phi_large, 2);
+    }
+    of_heights += std::pow(predicted_height(window, law) - measured_height(window), 2);
+  }
+  const auto add = [&](const char* name, const char* unit, double value) {
+    numbers.numbers.emplace_back(
+        fmt::format("{}_of_{}@{}{}", name, prediction_laws[law], run.name, unit), Estimate{value});
+  };
+  add("rms_phi_L", "", std::sqrt(squares / weight));
+  add("rms_y_L", "[m]", std::sqrt(of_heights / static_cast<double>(run.windows.size() - 1)));
+  add("y_L_last", "[m]", predicted_height(run.windows.back(), law));
+}
+
+}  // namespace
+
+Prediction predict(const Table& table, const FluxCoefficients& fitted, const RowFilter& filter)
+{
+  Prediction prediction{table.name, windows_of(table, filter)};
+  auto& windows = prediction.windows;
+  if (windows.size() < 2)
+    throw RunError(
+        fmt::format("{}: {} windows are left to predict, and two are needed, the first to "
+                    "begin with; choose other --begin, --end or --min-solid",
+                    table.name, windows.size()));
+  const auto shear_rates = shear_rates_of(table);
+  auto bed = bed_of(table, windows.front(), solid_of(windows.front()));
+  const auto middle = [](const Span& span) { return (span.first + span.second) / 2; };
+  const auto cells = equal_shares();
+  for (std::size_t law = 0; law < prediction_laws.size(); ++law) {
+    TransportColumn column(cells_of(windows.front()), bed.height);
+    Span last = windows.front().span;
+    for (auto& window : windows) {
+      bed.shear_rate = (shear_rates.at(last) + shear_rates.at(window.span)) / 2;
+      column.advance(middle(window.span) - middle(last), laws_of(bed, fitted)[law]);
+      last = window.span;
+      const auto shares = shares_below(window);
+      for (std::size_t k = 0; k < window.layers.size(); ++k)
+        window.layers[k].predicted[law] =
+            mean_between(shares[k], shares[k + 1], cells, column.phi_large());
+    }
+  }
+  return prediction;
+}
+
+void refuse_fitted_runs(const std::vector<Table>& predicted, const std::vector<Table>& fitted)
+{
+  auto tables = predicted;
+  for (const auto& table : fitted)
+    if (table.has_column("q_L")) tables.push_back(table);
+  const auto run = find_runs(tables).run;
+  for (std::size_t k = 0; k < predicted.size(); ++k)
+    for (std::size_t other = predicted.size(); other < tables.size(); ++other)
+      if (run[k] == run[other])
+        throw UsageError(fmt::format(
+            "{}: it is of the same run as {}, from which the coefficients come; predict runs that "
+            "are not among the tables of the fit",
+            tables[k].name, tables[other].name));
+}
+
+void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predictions)
+{
+  for (const auto& run : predictions) {
+    numbers.numbers.emplace_back(fmt::format("y_L_first@{}[m]", run.name),
+                                 Estimate{measured_height(run.windows.front())});
+    numbers.numbers.emplace_back(fmt::format("y_L_last@{}[m]", run.name),
+                                 Estimate{measured_height(run.windows.back())});
+    for (std::size_t law = 0; law < prediction_laws.size(); ++law) add_law(numbers, run, law);
+  }
+}
+
+Table prediction_table(const std::vector<Prediction>& predictions)
+{
+  Table table;
+  table.columns = {"run", "t0[s]", "t1[s]", "y0[m]", "y1[m]", "phi_L"};
+  for (const auto* law : prediction_laws) table.columns.push_back(fmt::format("phi_L_{}", law));
+  for (std::size_t run = 0; run < predictions.size(); ++run)
+    for (const auto& window : predictions[run].windows)
+      for (const auto& layer : window.layers) {
+        auto& row = table.rows.emplace_back();
+        row = {static_cast<double>(run + 1),
+               layer.key.begin,
+               layer.key.end,
+               layer.key.bottom,
+               layer.key.top,
+               layer.phi_large};
+        row.insert(row.end(), layer.predicted.begin(), layer.predicted.end());
+      }
+  return table;
+}
+
+}  // namespace grseg
