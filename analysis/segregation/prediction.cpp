@@ -273,19 +273,16 @@ void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predi
 Table prediction_table(const std::vector<Prediction>& predictions)
 {
   Table table;
-  table.columns = {"run", "t0[s]", "t1[s]", "y0[m]", "y1[m]", "phi_L"};
+  table.columns = {"run", "t0[s]", "t1[s]", "y0[m]", "y1[m]", "solid", "phi_L"};
   for (const auto* law : prediction_laws) table.columns.push_back(fmt::format("phi_L_{}", law));
   for (std::size_t run = 0; run < predictions.size(); ++run)
     for (const auto& window : predictions[run].windows)
       for (const auto& layer : window.layers) {
         auto& row = table.rows.emplace_back();
-        row = {static_cast<double>(run + 1),
-               layer.key.begin,
-               layer.key.end,
-               layer.key.bottom,
-               layer.key.top,
-               layer.phi_large};
-        row.insert(row.end(), layer.predicted.begin(), layer.predicted.end());
+        const auto& [key, content, phi, predicted] = layer;
+        row = {static_cast<double>(run + 1), key.begin, key.end, key.bottom, key.top,
+               content / key.volume,         phi};
+        row.insert(row.end(), predicted.begin(), predicted.end());
       }
   return table;
 }

@@ -69,7 +69,7 @@ void refuse_fitted_runs(const std::vector<Table>& predicted, const std::vector<T
 void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predictions);
 
 /// Measured and predicted phi_L: columns run (number in the order of `predictions`), t0, t1, y0, y1,
-/// phi_L, and phi_L_LAW for each law.
+/// solid (fraction), phi_L, and phi_L_LAW for each law.
 Table prediction_table(const std::vector<Prediction>& predictions);
 
 }  // namespace grseg

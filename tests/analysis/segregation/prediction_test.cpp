@@ -203,6 +203,7 @@ TEST(Prediction, TheTableHoldsMeasuredAndPredictedCompositionByLayer)
   EXPECT_EQ(table.rows.back()[table.column("run")], 2);
   const auto& row = table.rows[2 * layers + 5];  // the sixth layer in the third window
   EXPECT_EQ(row[table.column("t0")], 10);
+  EXPECT_NEAR(row[table.column("solid")], solid, 1e-12);
   EXPECT_EQ(row[table.column("phi_L")], 1);
   EXPECT_NEAR(row[table.column("phi_L_unchanged")], 1, 1e-12);
   EXPECT_LT(row[table.column("phi_L_closure")], 0.9);
