@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t column_cells = 200;
 constexpr const char* remedy = "a table of grseg-segregation has it";
 
-/// What a law needs to know of a bed.
+/// Properties of a bed that laws use.
 struct PredictedBed {
   double small_diameter, large_diameter;  // m
   double gravity, cosine;                 // g cos(slope), m/s^2; cos(slope)

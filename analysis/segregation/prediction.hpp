@@ -48,7 +48,7 @@ struct Prediction {
 };
 
 /// Predicts all windows of a table of grseg-segregation from its first. phi_L, the solid volume, and
-/// its height at the median solid fraction are those of the first window, taken at its middle; the
+/// its height at the median solid fraction come from the first window, taken at its middle; the
 /// shear rate changes from window to window. Layers correspond by the share of all grains below them, so
 /// that a bed may dilate. `filter` selects the windows and the least solid fraction of layers; its
 /// heights are not used, because large grains are conserved only in the whole bed. Throws

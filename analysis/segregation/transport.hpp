@@ -31,7 +31,7 @@ class TransportColumn {
   TransportColumn(std::vector<double> phi_large, double height);
 
   /// Moves the time forward by `duration`, s, in as many equal steps as keep phi_L in its bounds.
-  /// The law is evaluated anew in each step; its coefficients must be finite and D not negative.
+  /// The law is evaluated in each step; its coefficients must be finite and D not negative.
   void advance(double duration, const TransportLaw& law);
 
   /// phi_L of the cells from the base upward.
