@@ -389,7 +389,7 @@ std::map<Span, double> shear_rates_of(const Table& table)
   std::map<Span, double> rates;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (std::isnan(keys[row].bottom))
-      rates[{keys[row].begin, keys[row].end}] = table.rows[row][column];
+      rates[{keys[row].begin, keys[row].end}] = std::abs(table.rows[row][column]);
   return rates;
 }
 

@@ -88,7 +88,7 @@ struct ClosureData {
 ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                          const ClosureFilter& filter);
 
-/// Shear rate of the bed in each window of a table of grseg-segregation, 1/s. Throws FormatError if
+/// Absolute shear rate of the bed in each window of a table of grseg-segregation, 1/s. Throws FormatError if
 /// the table has no such column.
 std::map<Span, double> shear_rates_of(const Table& table);
 

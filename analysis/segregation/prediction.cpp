@@ -213,10 +213,41 @@ void add_law(NamedNumbers& numbers, const Prediction& run, std::size_t law)
   add("y_L_last", "[m]", predicted_height(run.windows.back(), law));
 }
 
+/// Shear rates of the bed in the windows, 1/s.
+std::vector<double> shear_rates_in(const Table& table, const std::vector<PredictedWindow>& windows)
+{
+  const auto known = shear_rates_of(table);
+  std::vector<double> rates;
+  for (const auto& [span, layers] : windows) {
+    const auto found = known.find(span);
+    if (found == known.end() || !std::isfinite(found->second))
+      throw FormatError(fmt::format(
+          "{}: no shear rate of the bed from {:g} to {:g} s, which is in the row without y0 and y1; "
+          "make the table again with grseg-segregation",
+          table.name, span.first, span.second));
+    rates.push_back(found->second);
+  }
+  return rates;
+}
+
+/// Throws RunError if the fit has no numbers to predict with.
+void check(const FluxCoefficients& fitted)
+{
+  if (!std::isfinite(fitted.B_over_c + fitted.d_over_c))
+    throw RunError(
+        "the fit gives no B/c and d/c to predict with; give runs of other stages of "
+        "segregation to the fit");
+  if (!(fitted.shear_d > 0 && fitted.shear_d2 > 0))
+    throw RunError(
+        "the tables of grseg-segregation of the fit have no shear rate of the bed, which "
+        "a prediction needs; make them again with this version");
+}
+
 }  // namespace
 
 Prediction predict(const Table& table, const FluxCoefficients& fitted, const RowFilter& filter)
 {
+  check(fitted);
   Prediction prediction{table.name, windows_of(table, filter)};
   auto& windows = prediction.windows;
   if (windows.size() < 2)
@@ -224,17 +255,17 @@ Prediction predict(const Table& table, const FluxCoefficients& fitted, const Row
         fmt::format("{}: {} windows are left to predict, and two are needed, the first to "
                     "begin with; choose other --begin, --end or --min-solid",
                     table.name, windows.size()));
-  const auto shear_rates = shear_rates_of(table);
+  const auto shear_rates = shear_rates_in(table, windows);
   auto bed = bed_of(table, windows.front(), solid_of(windows.front()));
   const auto middle = [](const Span& span) { return (span.first + span.second) / 2; };
   const auto cells = equal_shares();
   for (std::size_t law = 0; law < prediction_laws.size(); ++law) {
     TransportColumn column(cells_of(windows.front()), bed.height);
-    Span last = windows.front().span;
-    for (auto& window : windows) {
-      bed.shear_rate = (shear_rates.at(last) + shear_rates.at(window.span)) / 2;
-      column.advance(middle(window.span) - middle(last), laws_of(bed, fitted)[law]);
-      last = window.span;
+    for (std::size_t n = 0; n < windows.size(); ++n) {
+      auto& window = windows[n];
+      const std::size_t last = n > 0 ? n - 1 : 0;
+      bed.shear_rate = (shear_rates[last] + shear_rates[n]) / 2;
+      column.advance(middle(window.span) - middle(windows[last].span), laws_of(bed, fitted)[law]);
       const auto shares = shares_below(window);
       for (std::size_t k = 0; k < window.layers.size(); ++k)
         window.layers[k].predicted[law] =

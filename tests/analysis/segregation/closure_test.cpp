@@ -127,6 +127,21 @@ NamedNumbers summary_of(const std::vector<Table>& tables,
   return closure_summary(read_closure(tables, rules, filter), rules, {});
 }
 
+TEST(SegregationClosure, CoefficientsForOtherRunsComeWithTheMeanShearOfTheFittedRows)
+{
+  auto tables = tables_of({}, "a");
+  tables.segregation.columns.emplace_back("shear_rate[1/s]");
+  for (auto& row : tables.segregation.rows) row.push_back(std::isnan(row[2]) ? -20 : no_number);
+  const auto found = flux_coefficients(
+      read_closure({tables.segregation, tables.stress}, two_rules, ClosureFilter{}));
+  EXPECT_NEAR(found.B_over_c, b_over_c, 1e-15);
+  EXPECT_NEAR(found.d_over_c, d_over_c, 1e-15);
+  // phi_L is 0.35 on average over the layers, so d is 6.75 mm; its mean square is larger.
+  EXPECT_NEAR(found.shear_d, 20 * 0.00675, 1e-12);
+  EXPECT_GT(found.shear_d2, 20 * 0.00675 * 0.00675);
+  EXPECT_LT(found.shear_d2, 20 * 0.00675 * 0.00675 * 1.1);
+}
+
 TEST(SegregationClosure, AFluxWithoutNoiseGivesItsCoefficientsFromTablesInAnyOrder)
 {
   const auto a = tables_of({}, "a"), b = tables_of({}, "b");

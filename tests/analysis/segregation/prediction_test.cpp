@@ -228,5 +228,22 @@ TEST(Prediction, ASingleWindowPredictsNothing)
   EXPECT_THROW(predict(table_of({}, uniform(0, 0), 1), fitted, {}), RunError);
 }
 
+TEST(Prediction, ShearRatesAreNeededOfThePredictedAndOfTheFittedRuns)
+{
+  auto run = table_of({}, uniform(0, 0), 3);
+  EXPECT_THROW(predict(run, {b_over_c, d_over_c}, {}), RunError);
+  EXPECT_THROW(predict(run, {}, {}), RunError);
+  run.rows.pop_back();  // of the bed in the last window
+  EXPECT_THROW(predict(run, fitted, {}), FormatError);
+}
+
+TEST(Prediction, TheDirectionOfFlowDoesNotMatter)
+{
+  const Bed forward{}, backward{.shear_rate = -20};
+  const auto a = predict(table_of(forward, uniform(0, 0), 3), fitted, {});
+  const auto b = predict(table_of(backward, uniform(0, 0), 3), fitted, {});
+  EXPECT_EQ(number(a, "rms_phi_L_of_closure"), number(b, "rms_phi_L_of_closure"));
+}
+
 }  // namespace
 }  // namespace grseg
