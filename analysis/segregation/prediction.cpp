@@ -32,14 +32,16 @@ struct PredictedBed {
   }
 };
 
+/// S and D of Trewhela et al., whose A, B, C and E are a, b, c and e here.
 TransportRates trewhela(const PredictedBed& bed, double height, double phi_large, bool intruder)
 {
-  constexpr double A = 0.108, B = 0.3744, C = 0.2712, E = 2.0957;
-  const double R = bed.large_diameter / bed.small_diameter, d = bed.mean_diameter(phi_large);
+  constexpr double a = 0.108, b = 0.3744, c = 0.2712, e = 2.0957;
+  const double excess = bed.large_diameter / bed.small_diameter - 1;
+  const double d = bed.mean_diameter(phi_large);
   const double pressure = bed.solid * (bed.height - height) * bed.cosine;
-  const double size = (R - 1) + (intruder ? 0 : E * phi_large * (R - 1) * (R - 1));
+  const double size = excess + (intruder ? 0 : e * phi_large * excess * excess);
   const double spread = bed.shear_rate * d * d;
-  return {B * spread * size / (C * d + pressure), A * spread};
+  return {b * spread * size / (c * d + pressure), a * spread};
 }
 
 /// The laws in the order of prediction_laws.
