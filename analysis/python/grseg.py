@@ -1291,10 +1291,16 @@ class Fit:
     degrees_of_freedom: float
 
 
-def _spread(table):
-    """Second moment of the weight in the means of a layer, over its squared thickness (analysis/fit/fit_data.hpp)."""
+def _weight_in_layers(table):
+    """Mean height less the middle, and second moment about the mean, of the weight in the means of each layer [rows], in
+    units of its thickness and of the square of it (analysis/fit/row_neighbours.hpp)."""
+    if table.header.get("bins", "").startswith("radius"):
+        with np.errstate(invalid="ignore", divide="ignore"):
+            n = (table["y0"] + table["y1"]) / 2 / (table["y1"] - table["y0"])
+            return 1 / (12 * n), 1 / 12 - 1 / (144 * n**2)
     variance = {"gauss": 1, "lucy": 2 / 21, "heaviside": 1 / 3}.get(table.header.get("assign"))
-    return 1 / 12 + (variance * (table.number("width") / table.number("layer")) ** 2 if variance else 0)
+    spread = 1 / 12 + (variance * (table.number("width") / table.number("layer")) ** 2 if variance else 0)
+    return np.zeros(len(table["y0"])), np.full(len(table["y0"]), spread)
 
 
 class Points:
@@ -1431,7 +1437,7 @@ class Points:
     def _select(self, table):
         """Fields of the points of one table, selected as in select_fit_data() of analysis/fit/fit_data.cpp."""
         if table.header.get("bins", "layers").split(" ")[0] in ("xy", "xz", "rz"):
-            raise Error(f"{table.name}: a map, whose rows are cells, not layers; make the table without --bins")
+            raise Error(f"{table.name}: a map, whose rows are cells, not layers; use grseg-fit, or make the table without --bins")
         contents = self._contents(table)
         small, large = (contents[:, k] for k in self.pair)
         solid = contents.sum(axis=1) / table["V"]
@@ -1447,16 +1453,18 @@ class Points:
         frames, row = table["frames"][use], np.flatnonzero(use)
         with np.errstate(invalid="ignore"):
             phi = large / (small + large)
-        below, above = self._neighbours(table, small + large > 0)
+        below, above = self._neighbours(table, (small + large > 0) & (solid >= self._min_solid * median))
         below, above = (np.where(next_row < 0, row, next_row) for next_row in (below[row], above[row]))
-        layers = np.maximum((below != row).astype(int) + (above != row), 1)
-        slope = self._removed * _spread(table) * (phi[above] - phi[below]) / layers**2
+        mean, spread = _weight_in_layers(table)
+        layers = (below != row).astype(int) + (above != row)
+        distance = np.where(layers > 0, layers + mean[above] - mean[below], 1)
+        slope = self._removed * spread[row] * (phi[above] - phi[below]) / distance**2
         return {"row": row, "phi_large": phi[row], "weight": frames * rarer, "frames": frames,
                 "size_ratio": np.full(len(frames), d_large / d_small), "_below": below, "_above": above, "_slope": slope}
 
     @staticmethod
     def _neighbours(table, filled):
-        """Rows of the next layers below and above in the same window [rows]; -1 where there is no grain of the pair."""
+        """Rows of the next layers below and above in the same window [rows]; -1 where they are not `filled`."""
         t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
         order = np.lexsort((y0, t1, t0))
         low, high = order[:-1], order[1:]
