@@ -101,6 +101,7 @@ struct Selected {
 Selected select(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                 const PartitionSettings& settings)
 {
+  for (const auto& table : tables) refuse_map(table);
   Selected all{read_fit_tables(tables, Quantity::contact, rules), {}, {}, {}};
   const auto& species = all.tables.front().species;
   if (species.size() < 2)

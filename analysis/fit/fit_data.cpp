@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
-#include "analysis/frames/coarse_graining.hpp"
+#include "analysis/fit/cells_inside.hpp"
 #include "analysis/frames/grouping.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
@@ -14,11 +14,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace grseg {
@@ -56,6 +54,16 @@ SumsOfRow kinetic_sums(const Table& table, const SpeciesList& species)
   };
 }
 
+/// The column with the rate of shear, if the table has one: neither tables of grseg-stress nor
+/// annuli have it (LayerFlow::du_dy).
+std::optional<std::size_t> shear_column(const Table& table)
+{
+  const bool map = plane_of(table).has_value();
+  if (!map && !header_or(table, "bins", "").empty()) return {};
+  const char* const name = map ? "shear_rate" : "du_dy";
+  return table.has_column(name) ? std::optional(table.column(name)) : std::nullopt;
+}
+
 std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Quantity quantity,
                               const std::vector<PartitionRule>& rules)
 {
@@ -65,13 +73,15 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
   else
     sums = [reader = ContactSumsReader(table, rules)](std::size_t row) { return reader.read(row); };
 
-  const auto keys = read_layer_keys(table, "a table of grseg-stress or grseg-kinetic has it");
-  const auto bottom = table.column("y0");
+  const auto keys = read_keys(table, "a table of grseg-stress or grseg-kinetic has it");
+  const auto bottom = plane_of(table) ? std::nullopt : std::optional(table.column("y0"));
+  const auto shear = shear_column(table);
   std::vector<FitRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    finite_cell(table, row, bottom);  // these tables have no row for the whole bed
+    if (bottom) finite_cell(table, row, *bottom);  // these tables have no row for the whole bed
     rows.emplace_back(FitRow{keys[row], sums(row)}).sums.volume = keys[row].volume;
+    if (shear) rows.back().shear = std::abs(table.rows[row][*shear]);
   }
   return rows;
 }
@@ -85,7 +95,7 @@ std::vector<LayerSolid> layers_of(const std::vector<FitRow>& rows)
 
 /// The member of FilterCount that counts this row: `used`, or the reason why it is left out.
 std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
-                                   const FitFilters& filters, const RowRange& range)
+                                   const FitFilters& filters, const RowRange& range, bool inside)
 {
   using Count = FilterCount;
   const double small = row.sums.content[pair.smaller], large = row.sums.content[pair.larger];
@@ -94,9 +104,10 @@ std::size_t FilterCount::*place_of(const FitRow& row, const SpeciesPair& pair,
   if (!(small + large > 0) || !(row.key.frames > 0)) return &Count::without_grains;
   if (!(small > 0)) return &Count::without_small;
   if (!(large > 0)) return &Count::without_large;
-  if (!range.holds_layer(row.key)) return &Count::outside_heights;
+  if (!inside || !range.holds_layer(row.key)) return &Count::outside_heights;
   if (ratio < filters.ratio_low || ratio > filters.ratio_high) return &Count::outside_ratio;
   if (row.solid() < range.least_solid) return &Count::below_solid;
+  if (filters.min_shear > 0 && !(row.shear >= filters.min_shear)) return &Count::below_shear;
   return &Count::used;
 }
 
@@ -124,7 +135,40 @@ LayerSample sample_of(const FitRow& row, const SpeciesPair& pair, const SpeciesL
 }
 
 /// Rows of a table that are points, each with its pair of species.
-using UsedRows = std::vector<std::pair<const FitRow*, SpeciesPair>>;
+struct UsedRows {
+  std::vector<std::pair<const FitRow*, SpeciesPair>> points;
+  double least_solid;  // least solid fraction of a row
+};
+
+/// True for each row of a table that --heights selects, as far as a range of heights does not tell:
+/// cells of a map that are `inside`.
+std::vector<bool> rows_inside(const FitTable& run, const FitFilters& filters, double small_diameter)
+{
+  const auto plane = plane_of(*run.table);
+  if (!plane || filters.heights != inside_the_bed) return std::vector<bool>(run.rows.size(), true);
+  const auto cells = listed(run.rows, [](const FitRow& row) {
+    return CellSolid{row.key, row.solid()};
+  });
+  const std::string axes = word_of(*plane, map_planes);
+  const auto periodic = header_or(*run.table, "periodic", "");
+  const auto goes_on = [&](char axis) { return periodic.find(axis) != std::string::npos; };
+  return cells_inside(cells, {{goes_on(axes[0]), goes_on(axes[1])}, plane == MapPlane::rz},
+                      margin_inside * small_diameter);
+}
+
+/// The rows of a table that a filter selects; a map has its own meaning of `inside`.
+RowRange range_of(const FitTable& run, const FitFilters& filters, const LengthUnits& units)
+{
+  auto own = filters;
+  const auto plane = plane_of(*run.table);
+  if (plane && filters.heights == inside_the_bed) own.heights = "all";
+  if (plane && plane != MapPlane::xy && own.heights != "all")
+    throw UsageError(
+        fmt::format("--heights {}: {} is a map {}, whose cells have no height; use "
+                    "inside or all",
+                    own.heights, run.table->name, word_of(*plane, map_planes)));
+  return own.range(units, layers_of(run.rows));
+}
 
 UsedRows used_rows(const FitTable& run, const FitFilters& filters,
                    const std::vector<SpeciesPair>& pairs, FilterCount& count)
@@ -132,14 +176,20 @@ UsedRows used_rows(const FitTable& run, const FitFilters& filters,
   const auto& table = *run.table;
   const LengthUnits units{table.header_positive("small_diameter"),
                           table.header_positive("large_diameter")};
-  const auto range = filters.range(units, layers_of(run.rows));
-  UsedRows used;
-  for (const auto& row : run.rows)
+  if (filters.min_shear > 0 && !shear_column(table))
+    throw UsageError(
+        fmt::format("--min-shear: {} has no rates of shear; use a table of grseg-kinetic "
+                    "by layer, or a map",
+                    table.name));
+  const auto range = range_of(run, filters, units);
+  const auto inside = rows_inside(run, filters, units.small_diameter);
+  UsedRows used{{}, range.least_solid};
+  for (std::size_t k = 0; k < run.rows.size(); ++k)
     for (const auto& pair : pairs) {
-      const auto place = place_of(row, pair, filters, range);
+      const auto place = place_of(run.rows[k], pair, filters, range, inside[k]);
       ++count.rows;
       ++(count.*place);
-      if (place == &FilterCount::used) used.emplace_back(&row, pair);
+      if (place == &FilterCount::used) used.points.emplace_back(&run.rows[k], pair);
     }
   return used;
 }
@@ -158,7 +208,7 @@ Observations observations_of(const std::vector<FitTable>& tables, const std::vec
     if (!windows_of_run.contains(run)) order.push_back(run);
     auto& windows = windows_of_run[run];
     std::set<Span> spans;
-    for (const auto& [row, pair] : used[k]) spans.insert({row->key.begin, row->key.end});
+    for (const auto& [row, pair] : used[k].points) spans.insert({row->key.begin, row->key.end});
     for (const auto& span : spans) windows.push_back({tables[k].table, span});
   }
   Observations numbers;
@@ -177,75 +227,34 @@ Observations observations_of(const std::vector<FitTable>& tables, const std::vec
   return numbers;
 }
 
-/// Finds the rows of the next layers in the same window.
-class Neighbours {
- public:
-  explicit Neighbours(const std::vector<FitRow>& rows) : rows_(rows)
-  {
-    for (std::size_t k = 0; k < rows.size(); ++k) in_order_[place_of(rows[k].key)] = k;
-  }
-  /// The row of the next layer below or above row k, if it contains grains of the pair.
-  std::optional<std::size_t> below(std::size_t k, const SpeciesPair& pair) const
-  {
-    const auto own = in_order_.find(place_of(rows_[k].key));
-    if (own == in_order_.begin()) return {};
-    return if_adjacent(std::prev(own)->second, k, std::prev(own)->second, pair);
-  }
-  std::optional<std::size_t> above(std::size_t k, const SpeciesPair& pair) const
-  {
-    const auto next = std::next(in_order_.find(place_of(rows_[k].key)));
-    if (next == in_order_.end()) return {};
-    return if_adjacent(k, next->second, next->second, pair);
-  }
-
- private:
-  using Place = std::tuple<double, double, double>;  // begin and end of the window, bottom
-  static Place place_of(const LayerKey& key) { return {key.begin, key.end, key.bottom}; }
-
-  std::optional<std::size_t> if_adjacent(std::size_t lower, std::size_t upper, std::size_t found,
-                                         const SpeciesPair& pair) const
-  {
-    const auto &low = rows_[lower].key, &high = rows_[upper].key;
-    const auto& content = rows_[found].sums.content;
-    const bool adjacent = low.begin == high.begin && low.end == high.end &&
-                          std::abs(high.bottom - low.top) < 1e-6 * (low.top - low.bottom);
-    if (!adjacent || !(content[pair.smaller] + content[pair.larger] > 0)) return {};
-    return found;
-  }
-
-  const std::vector<FitRow>& rows_;
-  std::map<Place, std::size_t> in_order_;
-};
-
 void add_samples(const FitTable& run, const UsedRows& used, const Observations& observations,
                  FitData& data)
 {
   data.tables.push_back(run.table->name);
   const auto first = data.rows.size();
   for (const auto& row : run.rows) data.rows.push_back(row.sums);
-  const Neighbours neighbours(run.rows);
-  for (const auto& [row, pair] : used) {
+  const RowNeighbours neighbours(*run.table, listed(run.rows, &FitRow::key));
+  for (const auto& [row, pair] : used.points) {
     if (data.samples.empty()) data.window = row->key.end - row->key.begin;
     auto& sample = data.samples.emplace_back(sample_of(*row, pair, run.species, data.dimension));
     sample.window = observations.at({run.table, {row->key.begin, row->key.end}});
     sample.table = data.tables.size() - 1;
     const auto k = static_cast<std::size_t>(row - run.rows.data());
     sample.row = first + k;
-    if (const auto next = neighbours.below(k, pair)) sample.below = first + *next;
-    if (const auto next = neighbours.above(k, pair)) sample.above = first + *next;
-    sample.spread = run.spread;
+    sample.beside = neighbours.beside(k, [&, &pair = pair](std::size_t other) {
+      const auto& content = run.rows[other].sums.content;
+      return content[pair.smaller] + content[pair.larger] > 0 &&
+             run.rows[other].solid() >= used.least_solid;
+    });
+    for (auto& rows : sample.beside)
+      rows.renumber([first](std::size_t number) { return first + number; });
   }
 }
 
-/// LayerSample::spread of the layers of a table. Kernels: coarse_graining.hpp.
-double spread_of(const Table& table)
+std::string bins_in_words(const Table& table)
 {
-  constexpr double of_layer = 1.0 / 12;
-  const auto assign = header_or(table, "assign", "");
-  const auto kernel = std::ranges::find(kernel_shapes, assign, &Choice<KernelShape>::word);
-  if (kernel == std::end(kernel_shapes)) return of_layer;
-  const double width = table.header_positive("width") / table.header_positive("layer");
-  return of_layer + Kernel(kernel->value, width).variance();
+  const auto plane = plane_of(table);
+  return plane ? fmt::format("the cells of a map ({})", word_of(*plane, map_planes)) : "layers";
 }
 
 void require_alike(const FitTable& a, const FitTable& b)
@@ -260,6 +269,9 @@ void require_alike(const FitTable& a, const FitTable& b)
         fmt::format("{} is of a run in {} dimensions and {} of a run in {}; fit them "
                     "separately",
                     a.table->name, dimension_of(*a.table), b.table->name, dimension_of(*b.table)));
+  if (plane_of(*a.table) != plane_of(*b.table))
+    throw FormatError(fmt::format("{} has {} and {} has {}; fit them separately", a.table->name,
+                                  bins_in_words(*a.table), b.table->name, bins_in_words(*b.table)));
 }
 
 }  // namespace
@@ -299,7 +311,8 @@ std::string FilterCount::sentence() const
                                     {without_large, "without large grains"},
                                     {outside_heights, "outside --heights"},
                                     {outside_ratio, "outside --ratio-range"},
-                                    {below_solid, "below --min-solid"}})
+                                    {below_solid, "below --min-solid"},
+                                    {below_shear, "below --min-shear"}})
     if (number > 0) text += fmt::format(", {} {}", number, why);
   return text;
 }
@@ -311,7 +324,6 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
   for (const auto& table : tables) {
     const auto species = species_of(table);
     all.push_back({&table, species, read_rows(table, species, quantity, rules)});
-    all.back().spread = spread_of(table);
     require_alike(all.front(), all.back());
   }
   const auto runs = find_runs(tables);
@@ -333,10 +345,11 @@ FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
     add_samples(tables[k], used[k], observations, data);
   if (data.samples.empty()) {
     const auto& count = data.count;
-    const bool one_species = count.without_small + count.without_large > 0 &&
-                             count.outside_heights + count.outside_ratio + count.below_solid == 0;
+    const bool one_species =
+        count.without_small + count.without_large > 0 &&
+        count.outside_heights + count.outside_ratio + count.below_solid + count.below_shear == 0;
     const bool shallow = filters.heights == inside_the_bed && count.outside_heights > 0 &&
-                         count.outside_ratio + count.below_solid == 0;
+                         count.outside_ratio + count.below_solid + count.below_shear == 0;
     throw RunError(fmt::format(
         "no usable points: {}{}", count.sentence(),
         one_species ? "; B needs layers that contain both species"
@@ -359,13 +372,16 @@ struct PairStress {
 template <class StressOf>
 double part_within(const FitData& data, const LayerSample& sample, const StressOf& stress_of)
 {
-  const auto below = sample.below.value_or(sample.row), above = sample.above.value_or(sample.row);
-  const double layers = sample.below.has_value() + sample.above.has_value();
   const double stress = stress_of(sample.row);
-  if (!(layers > 0) || !(stress > 0)) return 0;
-  const double rise =
-      phi_large(data.rows[above], sample.pair) - phi_large(data.rows[below], sample.pair);
-  return sample.spread * rise * (stress_of(above) - stress_of(below)) / (layers * layers * stress);
+  if (!(stress > 0)) return 0;
+  double products = 0;
+  for (const auto& [beside_below, beside_above, spread] : sample.beside) {
+    const auto below = beside_below.value_or(sample.row), above = beside_above.value_or(sample.row);
+    const double rise =
+        phi_large(data.rows[above], sample.pair) - phi_large(data.rows[below], sample.pair);
+    products += spread * rise * (stress_of(above) - stress_of(below));
+  }
+  return products / stress;
 }
 
 }  // namespace

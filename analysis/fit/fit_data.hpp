@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/fit/row_neighbours.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/statistics/confidence.hpp"
 #include "analysis/stress/contact_sums.hpp"
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +62,7 @@ inline constexpr Choice<Component> components[] = {
 /// Conditions that a row of a table meets to be a point of the fit.
 struct FitFilters : RowFilter {
   double ratio_low = 0.01, ratio_high = 100;  // least and largest phi_S/phi_L
+  double min_shear = 0;                       // least rate of shear, 1/s
 };
 
 /// Numbers of two species of the tables.
@@ -71,7 +74,7 @@ struct SpeciesPair {
 /// All pairs of this number of species: (0, 1), (0, 2), (1, 2), (0, 3) ...
 std::vector<SpeciesPair> all_pairs(std::size_t species);
 
-/// One layer in one window, and two of its species.
+/// One layer, or one cell of a map, in one window, and two of its species.
 struct LayerSample {
   std::size_t window = 0;  // index of the window in the series of all windows, run after run
   double phi_large = 0;    // area or volume of the larger species over the sum of the two species
@@ -80,8 +83,7 @@ struct LayerSample {
   double size_ratio = 0;   // nominal diameters, larger over smaller species
   std::size_t table = 0;   // index in FitData::tables
   std::size_t row = 0;     // index in FitData::rows
-  std::optional<std::size_t> below = {}, above = {};  // rows of the next layers in the same window
-  double spread = 0;  // second moment of the layer's or kernel's weight over its thickness squared
+  std::vector<RowsBeside> beside = {};  // rows beside it, by direction, as indices in FitData::rows
   SpeciesPair pair = {};
   LayerKey key = {};
 
@@ -91,7 +93,7 @@ struct LayerSample {
 /// Number of rows that were read, used, and left out for each reason.
 struct FilterCount {
   std::size_t rows = 0, outside_times = 0, without_grains = 0, without_small = 0, without_large = 0,
-              outside_ratio = 0, below_solid = 0, outside_heights = 0, used = 0;
+              outside_ratio = 0, below_solid = 0, below_shear = 0, outside_heights = 0, used = 0;
 
   /// "320 rows, 20 without grains, 5 outside --heights, ...".
   std::string sentence() const;
@@ -120,6 +122,9 @@ struct FitData {
 struct FitRow {
   LayerKey key;
   ContactSums<3> sums;
+  // Rate of shear of the mean flow, 1/s: in layers |du/dy|, in a map MapFlow::shear_rate(). NaN in
+  // empty cells, and where the table has no such column.
+  double shear = std::numeric_limits<double>::quiet_NaN();
 
   double solid() const;  // solid fraction of the layer
 };
@@ -131,20 +136,19 @@ struct FitTable {
   std::vector<FitRow> rows;
   std::size_t flow = 0;
   std::size_t run = 0;  // number of the run; tables of one run have the same number
-  double spread = 0;    // LayerSample::spread
 };
 
-/// Reads tables of grseg-stress (contact) or grseg-kinetic. Throws FormatError if a table lacks a
-/// column that `rules` need or has other species than the first table. Throws UsageError if two
-/// tables include the same windows of the same run.
+/// Reads tables of grseg-stress (contact) or grseg-kinetic: by layer, by annulus, or maps. Throws
+/// FormatError if a table lacks a column that `rules` need, or has other species or bins than the
+/// first table. Throws UsageError if two tables include the same windows of the same run.
 std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
                                       const std::vector<PartitionRule>& rules);
 
 /// Selects the layers and windows of all tables that pass the filters, as samples of `pairs`.
 /// Windows of one run and flow are put in order of time, even if they come from several tables
 /// (runs_of_tables.hpp). phi is computed from areas or volumes; from masses if a kinetic table has
-/// neither, since all species have one density then. Throws RunError, with the count of rows per
-/// filter, if no row passes.
+/// neither, since all species have one density then. Throws UsageError if --heights or --min-shear
+/// does not apply to a table, and RunError, with the count of rows per filter, if no row passes.
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs);
 
@@ -172,7 +176,8 @@ struct FitPoint {
 ///
 /// even if large grains bear the share phi_L of the stress at every height (B = 0). m is the second
 /// moment of the weight with which the mean is taken: h^2/12 for a layer of thickness h, w^2 for a
-/// Gaussian of width w. The equation is exact for linear profiles.
+/// Gaussian of width w, less near an axis (row_neighbours.hpp). The equation is exact for linear
+/// profiles. The cells of a map have such a term for each of their two directions.
 enum class Thickness { removed, kept };
 inline constexpr Choice<Thickness> thicknesses[] = {
     {"removed", Thickness::removed,

@@ -311,8 +311,7 @@ FitData of_flow(const FitData& data, std::size_t flow)
     if (flow_of_window[sample.window] != flow) continue;
     sample.window = window_of[sample.window];
     sample.row = row_of(sample.row);
-    for (auto* next : {&sample.below, &sample.above})
-      if (*next) *next = row_of(**next);
+    for (auto& next : sample.beside) next.renumber(row_of);
     part.samples.push_back(sample);
   }
   return part;

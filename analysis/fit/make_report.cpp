@@ -5,6 +5,7 @@
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
@@ -101,6 +102,8 @@ po::options_description FitOptions::description()
   add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
       "range of phi_S/phi_L of the layers to use");
   filters.add_layers_to(options);
+  add("min-shear", number(filters.min_shear, "X")->default_value(0, "0"),
+      "leave out layers or cells whose mean flow shears by less than X 1/s (tables of grseg-kinetic)");
   filters.add_times_to(options);
   add("json", po::bool_switch(&json), "print JSON instead of a table");
   add("quiet", po::bool_switch(&quiet), "print no remarks on standard error");
@@ -126,6 +129,10 @@ void FitOptions::check(const po::variables_map& values)
       if (values.contains(option) && !values[option].defaulted())
         throw UsageError(
             fmt::format("--{} concerns contacts; leave it out with --quantity kinetic", option));
+  if (!(filters.min_shear >= 0)) throw UsageError("--min-shear must not be negative");
+  if (quantity == "contact" && filters.min_shear > 0)
+    throw UsageError(
+        "--min-shear concerns the mean flow; use it with --quantity kinetic, or select heights");
   parse_ratio_range(ratio_range, filters);
 }
 
@@ -193,23 +200,28 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
                  const std::vector<Table>& tables, const FitReport& report, const FitData& data)
 {
   const bool all_times = std::isinf(s.filters.begin) && std::isinf(s.filters.end);
-  return {program_line(info),
-          {"preset", preset},
-          {"quantity", s.quantity},
-          {"component", s.component},
-          {"thickness", s.thickness},
-          {"ratio_range", s.ratio_range},
-          {"heights", heights_in_words(s.filters.heights)},
-          {"times", all_times ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
-          {"min_solid", format_number(s.filters.min_solid)},
-          {"rows", data.count.sentence()},
-          {"runs", fmt::format("{}", data.runs.size())},
-          {"windows", fmt::format("{}", number_of_windows(data.runs))},
-          {"bootstrap", fmt::format("{}", s.bootstrap)},
-          {"seed", fmt::format("{}", s.seed)},
-          {"interval", "95 %"},
-          {"over", over_words(report)},
-          {"flows", grouping_words(s.flows, tables)}};
+  const auto least_shear = s.filters.min_shear > 0
+                               ? Header{{"min_shear", format_number(s.filters.min_shear)}}
+                               : Header{};
+  Header header{
+      program_line(info),
+      {"preset", preset},
+      {"quantity", s.quantity},
+      {"component", s.component},
+      {"thickness", s.thickness},
+      {"ratio_range", s.ratio_range},
+      {"heights", heights_in_words(s.filters.heights)},
+      {"times", all_times ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
+      {"min_solid", format_number(s.filters.min_solid)}};
+  add_all(header, least_shear);
+  return add_all(header, {{"rows", data.count.sentence()},
+                          {"runs", fmt::format("{}", data.runs.size())},
+                          {"windows", fmt::format("{}", number_of_windows(data.runs))},
+                          {"bootstrap", fmt::format("{}", s.bootstrap)},
+                          {"seed", fmt::format("{}", s.seed)},
+                          {"interval", "95 %"},
+                          {"over", over_words(report)},
+                          {"flows", grouping_words(s.flows, tables)}});
 }
 
 PartitionScan scan(const char* program, const FitData& data, const ScanRange& range,

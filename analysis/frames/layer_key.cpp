@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/layer_key.hpp"
 
-#include "analysis/frames/map_grid.hpp"
 #include "analysis/frames/sums.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
@@ -25,8 +24,6 @@ bool HeightRange::holds(double bottom, double top) const
 }
 
 namespace {
-
-constexpr double margin = 4;  // of `inside` from base and surface, in small diameters
 
 HeightRange between(const std::string& text, LengthUnits units)
 {
@@ -61,7 +58,7 @@ HeightRange inside_of(const std::vector<LayerSolid>& layers, double small_diamet
     if (filled >= 0.5) base = std::min(base, bottom);
     height += filled * (mean.top - bottom);
   }
-  return {base + margin * small_diameter, base + height - margin * small_diameter};
+  return {base + margin_inside * small_diameter, base + height - margin_inside * small_diameter};
 }
 
 }  // namespace
@@ -77,7 +74,8 @@ double median_solid(const std::vector<LayerSolid>& layers)
 std::string heights_in_words(const std::string& text)
 {
   return text == inside_the_bed
-             ? fmt::format("inside: without {:g} d_S at the base and under the surface", margin)
+             ? fmt::format("inside: without {:g} d_S at the base and under the surface",
+                           margin_inside)
              : text;
 }
 
@@ -176,8 +174,13 @@ void require_sense(const Table& table, std::size_t row, const LayerKey& key)
   const bool bed = std::isnan(key.bottom) && std::isnan(key.top);
   if (!(key.begin < key.end))
     refuse_row(table, row, fmt::format("a window from {:g} to {:g} s", key.begin, key.end));
-  if (!bed && !(key.bottom < key.top && std::isfinite(key.top - key.bottom)))
-    refuse_row(table, row, fmt::format("a layer from {:g} to {:g} m", key.bottom, key.top));
+  const auto require_edges = [&](const char* what, double low, double high) {
+    if (!(low < high && std::isfinite(high - low)))
+      refuse_row(table, row, fmt::format("a {} from {:g} to {:g} m", what, low, high));
+  };
+  const bool cell = plane_of(table).has_value();
+  if (!bed) require_edges(cell ? "cell" : "layer", key.bottom, key.top);
+  if (cell) require_edges("cell", key.left, key.right);
   if (!(key.frames > 0) || key.frames != std::floor(key.frames))
     refuse_row(table, row, fmt::format("{} frames", format_number(key.frames)));
   if (bed ? key.volume < 0 : !(key.volume > 0))
@@ -211,26 +214,34 @@ using Span = std::pair<double, double>;
 
 void refuse_overlapping_rows(const Table& table, const std::vector<LayerKey>& keys)
 {
-  std::map<Span, std::map<Span, std::size_t>> layers_of;  // rows by window, then by layer
-  std::map<Span, std::size_t> bed_of;                     // row of the whole bed, by window
+  using Column = std::map<Span, std::size_t>;         // rows by layer
+  std::map<Span, std::map<Span, Column>> columns_of;  // by window, then by edges along x
+  std::map<Span, std::size_t> bed_of;                 // row of the whole bed, by window
   std::vector<Piece> windows;
+  const std::string layer = plane_of(table) ? "cell" : "layer";
   for (std::size_t row = 0; row < keys.size(); ++row) {
     const auto& key = keys[row];
     const Span window(key.begin, key.end);
-    if (!layers_of.contains(window)) windows.push_back({key.begin, key.end, row});
-    auto& layers = layers_of[window];
+    if (!columns_of.contains(window)) windows.push_back({key.begin, key.end, row});
+    auto& layers = columns_of[window][{key.left, key.right}];
     const auto [place, is_new] = std::isnan(key.bottom)
                                      ? bed_of.emplace(window, row)
                                      : layers.emplace(Span(key.bottom, key.top), row);
     if (!is_new)
-      throw FormatError(fmt::format("{}: row {} repeats the window and layer of row {}", table.name,
-                                    row + 1, place->second + 1));
+      throw FormatError(fmt::format("{}: row {} repeats the window and {} of row {}", table.name,
+                                    row + 1, layer, place->second + 1));
   }
   refuse_overlaps(table, windows, "windows");
-  for (const auto& [window, layers] : layers_of) {
-    std::vector<Piece> pieces;
-    for (const auto& [layer, row] : layers) pieces.push_back({layer.first, layer.second, row});
-    refuse_overlaps(table, std::move(pieces), "layers");
+  for (const auto& [window, columns] : columns_of) {
+    std::vector<Piece> beside;
+    for (const auto& [edges, layers] : columns) {
+      if (!layers.empty()) beside.push_back({edges.first, edges.second, layers.begin()->second});
+      std::vector<Piece> pieces;
+      for (const auto& [heights, row] : layers)
+        pieces.push_back({heights.first, heights.second, row});
+      refuse_overlaps(table, std::move(pieces), (layer + "s").c_str());
+    }
+    refuse_overlaps(table, std::move(beside), (layer + "s").c_str());
   }
 }
 
@@ -267,33 +278,69 @@ Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
   return add_all(header, trust_of(tables));
 }
 
-void refuse_map(const Table& table)
+std::optional<MapPlane> plane_of(const Table& table)
 {
   const auto bins = header_or(table, "bins", "");
-  if (find_choice(bins.substr(0, bins.find(' ')), map_planes))
+  return find_choice(bins.substr(0, bins.find(' ')), map_planes);
+}
+
+void refuse_map(const Table& table)
+{
+  if (plane_of(table))
     throw FormatError(fmt::format(
         "{}: the table is a map (bins: {}) with rows of cells, not layers; make it without --bins",
-        table.name, bins));
+        table.name, header_or(table, "bins", "")));
 }
+
+namespace {
+
+/// A number of LayerKey and its column in a table.
+struct KeyPlace {
+  double LayerKey::*value;
+  std::size_t column;
+};
+
+std::vector<KeyPlace> key_places(const Table& table, const std::string& remedy)
+{
+  const auto plane = plane_of(table);
+  const std::string axes = plane ? word_of(*plane, map_planes) : "";
+  std::vector<KeyPlace> places;
+  const auto add = [&](const std::string& name, double LayerKey::*value) {
+    places.push_back({value, find_column(table, name, remedy)});
+  };
+  for (const auto& column : key_columns) {
+    auto name = column.name_with_unit(dimension_of(table));
+    if (plane && name.front() == 'y') name.front() = axes[1];
+    add(name, column.value);
+  }
+  if (!plane) return places;
+  add(fmt::format("{}0[m]", axes[0]), &LayerKey::left);
+  add(fmt::format("{}1[m]", axes[0]), &LayerKey::right);
+  return places;
+}
+
+}  // namespace
 
 std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy)
 {
   refuse_map(table);
-  const int dimension = dimension_of(table);
-  std::array<std::size_t, key_columns.size()> columns{};
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    columns[c] = find_column(table, key_columns[c].name_with_unit(dimension), remedy);
+  return read_keys(table, remedy);
+}
+
+std::vector<LayerKey> read_keys(const Table& table, const std::string& remedy)
+{
+  const auto places = key_places(table, remedy);
+  const bool map = plane_of(table).has_value();
   require_positive_header(table);
 
   std::vector<LayerKey> keys(table.rows.size());
   for (std::size_t row = 0; row < keys.size(); ++row) {
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const auto value = key_columns[c].value;
+    for (const auto& [value, column] : places) {
       // Rows of the whole bed have NaN heights, and no volume if its top lies below y = 0.
-      const bool may_be_nan = value == &LayerKey::bottom || value == &LayerKey::top ||
-                              (value == &LayerKey::volume && std::isnan(keys[row].bottom));
-      keys[row].*value =
-          may_be_nan ? table.rows[row][columns[c]] : finite_cell(table, row, columns[c]);
+      const bool may_be_nan =
+          !map && (value == &LayerKey::bottom || value == &LayerKey::top ||
+                   (value == &LayerKey::volume && std::isnan(keys[row].bottom)));
+      keys[row].*value = may_be_nan ? table.rows[row][column] : finite_cell(table, row, column);
     }
     require_sense(table, row, keys[row]);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/map_grid.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/tool.hpp"
@@ -40,6 +41,8 @@ double median_solid(const std::vector<LayerSolid>& layers);
 
 /// Default value of --heights in every tool that combines layers.
 inline constexpr const char* inside_the_bed = "inside";
+/// Distance of the layers `inside` from base and surface, in small diameters.
+inline constexpr double margin_inside = 4;
 /// Values of --heights, for --help.
 inline constexpr const char* heights_help =
     "inside (without 4 dS at the base and 4 dS under the surface), all, or y0:y1, e.g. 4dS:56dS or "
@@ -60,12 +63,14 @@ HeightRange parse_heights(const std::string& text, LengthUnits units,
                           const std::vector<LayerSolid>& layers);
 
 /// First columns of every row of a table by layer and window. Tables of different tools are joined
-/// on them.
+/// on them. In a map a "layer" is a cell: its edges along the second axis of the map are `bottom`
+/// and `top`, those along the first axis `left` and `right`.
 struct LayerKey {
   double begin = 0, end = 0;   // times of the window, s
   double bottom = 0, top = 0;  // heights of the layer's edges, m; NaN: the whole bed
   double frames = 0;           // number of frames in the window
   double volume = 0;           // volume of the layer with its voids, m^2 or m^3
+  double left = 0, right = 0;  // m; both 0 unless the table is a map
 };
 
 struct KeyColumn {
@@ -134,13 +139,18 @@ SpeciesList species_of(const Table& table);
 /// preset if the tool has presets, histories of all tables, `command`, inputs, and verification.
 Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
                      const std::string& preset, const std::string& command);
+/// The plane of a map (header line "bins"); nothing for tables by layer or annulus.
+std::optional<MapPlane> plane_of(const Table& table);
 /// Throws FormatError if a table is a map, which has rows of cells.
 void refuse_map(const Table& table);
 
-/// The keys of all rows. Throws FormatError if the table is a map, if a column is missing (the
-/// message ends with `remedy`), or if a length or time in the header is not positive. Also, with
-/// the numbers of the rows, if a time, number of frames or volume is impossible (the whole bed may
-/// be empty), if a layer is repeated in a window, or if windows or layers overlap.
+/// The keys of all rows of a table by layer, or of a map. Throws FormatError if a column is missing
+/// (the message ends with `remedy`), or if a length or time in the header is not positive. Also,
+/// with the numbers of the rows, if a time, number of frames or volume is impossible (the whole bed
+/// may be empty), if a layer or cell is repeated in a window, or if windows, layers or cells
+/// overlap.
+std::vector<LayerKey> read_keys(const Table& table, const std::string& remedy);
+/// read_keys(), for what has no meaning for cells: throws FormatError if the table is a map.
 std::vector<LayerKey> read_layer_keys(const Table& table, const std::string& remedy);
 
 /// Column number of `name`, which includes the unit as grseg writes it, "V[m^2]". Throws

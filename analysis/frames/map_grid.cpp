@@ -40,6 +40,17 @@ std::size_t MapAxis::at(double place) const
   return static_cast<std::size_t>(within);
 }
 
+double MapAxis::in_cell(double place) const
+{
+  return periodic ? place - cell_of(place, side) * side : place - edge(at(place));
+}
+
+MapAxis MapAxis::divided(double longest) const
+{
+  const double parts = std::max(std::ceil(side / longest - 1e-9), 1.0);
+  return {name, side / parts, first * parts, cells * whole(parts), periodic};
+}
+
 MapAxis periodic_axis(char name, double side, double period)
 {
   const std::size_t cells = whole(std::ceil(period / side - 1e-9));
@@ -94,16 +105,37 @@ double MapGrid::volume(std::size_t cell) const
 }
 
 template <int D>
+Vec2 MapGrid::places(const Vector<D>& position) const
+{
+  return {plane == MapPlane::rz ? Vec2(position.template head<2>() - *axis).norm() : position.x(),
+          plane == MapPlane::xy ? position.y() : position[D - 1]};
+}
+
+template <int D>
 std::size_t MapGrid::at(const Vector<D>& position) const
 {
-  const double place =
-      plane == MapPlane::rz ? Vec2(position.template head<2>() - *axis).norm() : position.x();
-  const double other = plane == MapPlane::xy ? position.y() : position[D - 1];
-  return axes[1].at(other) * axes[0].cells + axes[0].at(place);
+  const Vec2 place = places<D>(position);
+  return axes[1].at(place.y()) * axes[0].cells + axes[0].at(place.x());
+}
+
+template <int D>
+Vec2 MapGrid::in_cell(const Vector<D>& position) const
+{
+  const Vec2 place = places<D>(position);
+  return {axes[0].in_cell(place.x()), axes[1].in_cell(place.y())};
+}
+
+MapGrid MapGrid::divided(double longest) const
+{
+  auto fine = *this;
+  for (auto& each : fine.axes) each = each.divided(longest);
+  return fine;
 }
 
 template std::size_t MapGrid::at(const Vec2&) const;
 template std::size_t MapGrid::at(const Vec3&) const;
+template Vec2 MapGrid::in_cell(const Vec2&) const;
+template Vec2 MapGrid::in_cell(const Vec3&) const;
 
 double MapGrid::thickness() const
 {

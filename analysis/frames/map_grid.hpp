@@ -33,6 +33,10 @@ struct MapAxis {
   double edge(std::size_t cell) const { return (first + static_cast<double>(cell)) * side; }
   // Number of the cell that contains a coordinate (m).
   std::size_t at(double place) const;
+  // Distance of a coordinate (m) from the lower edge of its cell, m.
+  double in_cell(double place) const;
+  // This axis with each cell divided into equal cells no longer than `longest` (m).
+  MapAxis divided(double longest) const;
 };
 
 /// Equal cells that fill the period (m), none longer than `side` (m).
@@ -80,10 +84,21 @@ struct MapGrid {
   template <int D>
   std::size_t at(const Vector<D>& position) const;
 
+  /// Distances of a position from the lower edges of its cell along both axes, m.
+  template <int D>
+  Vec2 in_cell(const Vector<D>& position) const;
+  /// This grid with each cell divided into equal cells with sides no longer than `longest` (m).
+  MapGrid divided(double longest) const;
+
   /// Thickness of a cell, m: along y in the plane xy, along r in rz; in xz the height of the bed.
   double thickness() const;
   /// Lower edge of a cell in this direction, m.
   double bottom(std::size_t cell) const;
+
+ private:
+  /// Coordinates of a position along both axes, m.
+  template <int D>
+  Vec2 places(const Vector<D>& position) const;
 };
 
 /// The cells of a map that cover all grains of a run, of sides no longer than `side` (m). Throws

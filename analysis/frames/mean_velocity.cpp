@@ -38,22 +38,26 @@ MeanVelocity<D>::MeanVelocity(const Layers& layers, double bin, std::size_t spec
                                   std::max(std::ceil(layers.thickness() / bin - 1e-9), 1.0))),
       species_(species)
 {
+  if (const auto* cells = layers.map()) over_map_.emplace(*cells, 2 * bin);
 }
 
 template <int D>
 void MeanVelocity<D>::add(const Grains& grains, const Frame<D>& frame)
 {
-  const bool profile = !layers_.map();
-  if (profile) of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
+  if (!over_map_) of_bin_.resize(std::max(of_bin_.size(), bins_.count(grains, frame)));
   of_layer_.resize(std::max(of_layer_.size(), layers_.count(grains, frame)),
                    std::vector<Sum>(species_));
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     const auto& position = frame.position[g];
     const double y = layers_.height<D>(position), mass = grains.mass[g];
-    const Sum own{mass, mass * motion_of<D>(layers_, frame, g)};
-    if (profile) of_bin_[bins_.at(y)].add(1, y, mass, own.momentum / mass);
-    of_layer_[layers_.holding<D>(position, y)][static_cast<std::size_t>(grains.species[g])] += own;
+    const Motion<D> motion = motion_of<D>(layers_, frame, g);
+    if (over_map_)
+      over_map_->add(position, mass, motion);
+    else
+      of_bin_[bins_.at(y)].add(1, y, mass, motion);
+    of_layer_[layers_.holding<D>(position, y)][static_cast<std::size_t>(grains.species[g])] +=
+        Sum{mass, mass * motion};
   }
 }
 
@@ -99,6 +103,7 @@ void MeanVelocity<D>::merge(const MeanVelocity& others)
 {
   accumulate(of_bin_, others.of_bin_);
   accumulate(of_layer_, others.of_layer_);
+  if (over_map_) over_map_->merge(*others.over_map_);
 }
 
 template <int D>
@@ -110,6 +115,7 @@ void MeanVelocity<D>::finish()
     if (bin.grains > 2) full_.push_back(b);
   }
   for (std::size_t k = 0; k < full_.size(); ++k) slope_.push_back(slope_at(k));
+  if (over_map_) over_map_->finish();
   for (const auto& layer : of_layer_) mean_of_layer_.push_back(mean(layer));
 }
 
@@ -194,17 +200,6 @@ std::optional<MotionOfOthers<D>> MeanVelocity<D>::on_profile_of_others(
   return found;
 }
 
-template <int D>
-MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Motion<D>& b)
-{
-  const Vector<D> u = a.template head<D>(), v = b.template head<D>();
-  const auto spins = a.size() - D;
-  return {weight / 2 * (u * v.transpose() + v * u.transpose()),
-          weight * a.tail(spins).dot(b.tail(spins))};
-}
-
-template MotionProduct<2> symmetric_product<2>(double, const Motion<2>&, const Motion<2>&);
-template MotionProduct<3> symmetric_product<3>(double, const Motion<3>&, const Motion<3>&);
 template class MeanVelocity<2>;
 template class MeanVelocity<3>;
 

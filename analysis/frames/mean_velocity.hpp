@@ -2,6 +2,8 @@
 #pragma once
 
 #include "analysis/frames/layers.hpp"
+#include "analysis/frames/map_flow.hpp"
+#include "analysis/frames/motion.hpp"
 #include "analysis/frames/sums.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/frame.hpp"
@@ -37,8 +39,9 @@ struct LayerFlowSums {
 
 /// Mean velocity from which fluctuations are measured. Staron & Phillips (2015) do not say which.
 enum class MeanFlow {
-  profile,           ///< a fine profile over height, over all frames. Each grain loses m_i/M of its
-                     ///< fluctuation, M being the mass in its bin of the profile, over all frames
+  profile,           ///< a fine profile over height, over all frames; in a map, planes in patches
+                     ///< (map_flow.hpp). Each grain loses m_i/M of its fluctuation, M being the
+                     ///< mass in its bin of the profile, over all frames; in a patch about 3 m_i/M
   profile_unbiased,  ///< the profile of all other grains
   layer,    ///< the layer's mean over all frames. The mean shear in the layer adds nu rho (du/dy
             ///< h)^2/12 to K_xx
@@ -49,7 +52,8 @@ enum class MeanFlow {
 };
 inline constexpr Choice<MeanFlow> mean_flows[] = {
     {"profile", MeanFlow::profile,
-     "profile over height in the window, at the height of the grain, from bins of at most dS/2"},
+     "profile over height in the window, at the height of the grain, from bins of at most dS/2; in a "
+     "map, planes through the velocities in patches of at most dS"},
     {"profile-unbiased", MeanFlow::profile_unbiased,
      "as profile, but from all other grains, and corrected for the error of their mean: for "
      "windows of few frames"},
@@ -60,17 +64,6 @@ inline constexpr Choice<MeanFlow> mean_flows[] = {
      "the mean"},
     {"species", MeanFlow::species, "mean of the species in the layer over the window"}};
 
-/// Components of a velocity, m/s, followed by components of the spin, rad/s: 3 or 6 numbers.
-template <int D>
-using Motion = Vector<D == 2 ? 3 : 6>;
-template <int D>
-Motion<D> motion_of(const Vector<D>& velocity, const Spin<D>& spin)
-{
-  if constexpr (D == 2) return {velocity.x(), velocity.y(), spin};
-  Motion<D> motion;
-  motion << velocity, spin;
-  return motion;
-}
 /// Motion of grain g, with components along and across its layer.
 template <int D>
 Motion<D> motion_of(const Layers& layers, const Frame<D>& frame, std::size_t g)
@@ -79,19 +72,6 @@ Motion<D> motion_of(const Layers& layers, const Frame<D>& frame, std::size_t g)
   return motion_of<D>(layers.turned<D>(frame.velocity[g], position),
                       layers.turned_spin<D>(frame.angular_velocity[g], position));
 }
-
-/// A product of two motions: the tensor of the velocities, m^2/s^2, and the scalar product of the
-/// spins, 1/s^2.
-template <int D>
-struct MotionProduct {
-  Tensor<D> velocities = Tensor<D>::Zero();
-  double spins = 0;
-
-  static constexpr auto members = std::tuple(&MotionProduct::velocities, &MotionProduct::spins);
-};
-/// The symmetric part of a (x) b, times a weight.
-template <int D>
-MotionProduct<D> symmetric_product(double weight, const Motion<D>& a, const Motion<D>& b);
 
 /// Mean motion at the place of a grain, found from other grains, and the covariance of this mean
 /// due to their fluctuations.
@@ -102,7 +82,7 @@ struct MotionOfOthers {
 };
 
 /// Mass-weighted mean motion of the mobile grains over the frames that were added: as a profile
-/// over height (not for a map), by layer, and by layer and species.
+/// over height, by layer, and by layer and species. A map has a MapFlow in place of the profile.
 ///
 /// The profile connects one point per bin of height by straight lines: mean height and mean motion
 /// of the grains in the bin. Empty bins have no point. Beyond the outermost points the profile is
@@ -112,7 +92,8 @@ struct MotionOfOthers {
 template <int D>
 class MeanVelocity {
  public:
-  /// The bins are no thicker than `bin` (m), with a whole number of bins per layer.
+  /// The bins are no thicker than `bin` (m), with a whole number of bins per layer; the patches of a
+  /// map have at most twice this side.
   MeanVelocity(const Layers& layers, double bin, std::size_t species = 2);
 
   void add(const Grains& grains, const Frame<D>& frame);
@@ -120,6 +101,8 @@ class MeanVelocity {
   /// Computes the means; no frame can be added afterwards.
   void finish();
 
+  /// Mean motion over a map; null for layers and annuli.
+  const MapFlow<D>* over_map() const { return over_map_ ? &*over_map_ : nullptr; }
   /// Mean motion at height y; NaN without grains.
   Motion<D> on_profile(double y) const;
   /// Profile V at a grain i that was added, from all other grains: grain i is removed from its bin,
@@ -169,6 +152,7 @@ class MeanVelocity {
 
   Layers layers_, bins_;
   std::vector<BinSum> of_bin_;
+  std::optional<MapFlow<D>> over_map_;
   std::size_t species_;
   std::vector<std::vector<Sum>> of_layer_;  // sums by layer, then by species
   // Set by finish().

@@ -74,7 +74,7 @@ struct TableWindows {
 TableWindows windows_of(const Table& table)
 {
   TableWindows windows{&table, {}};
-  const auto keys = read_layer_keys(table, "tables by layer and window have it");
+  const auto keys = read_keys(table, "tables by layer and window have it");
   for (std::size_t row = 0; row < keys.size(); ++row)
     windows.rows[{keys[row].begin, keys[row].end}].push_back(row);
   return windows;

@@ -13,6 +13,7 @@
 #include "formats/export/map_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -43,6 +44,11 @@ Header bins_lines(const Layers& layers)
   lines.emplace_back("cells", fmt::format("{} {}", first.cells, second.cells));
   lines.emplace_back("cell",
                      fmt::format("{} {}", format_number(first.side), format_number(second.side)));
+  std::vector<std::string> periodic;
+  for (const auto& each : map->axes)
+    if (each.periodic) periodic.emplace_back(1, each.name);
+  lines.emplace_back("periodic",
+                     periodic.empty() ? "none" : fmt::format("{}", fmt::join(periodic, " ")));
   if (map->plane == MapPlane::xz) lines.emplace_back("height", format_number(map->depth));
   return lines;
 }

@@ -130,7 +130,7 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
   ++frames_;
   sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)),
                {std::vector<Mean>(species_), {}});
-  const bool has_profile = !layers_.map();
+  const auto* over_map = mean_velocity_.over_map();
   MeanVelocity<D> now(layers_, layers_.thickness(), species_);
   if (flow_ == MeanFlow::instant) now.add(grains, frame);
   std::optional<UnbiasedFluctuations<D>> unbiased;
@@ -152,7 +152,9 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     std::optional<MotionProduct<D>> product;  // for means that do not include the grain
     if (unbiased && unbiased->has(layer)) product = unbiased->of(layer, mass, motion);
     if (flow_ == MeanFlow::profile_unbiased)
-      product = about_others(mean_velocity_.on_profile_of_others(y, mass, motion), motion);
+      product = over_map
+                    ? over_map->about_others(position, mass, motion)
+                    : about_others(mean_velocity_.on_profile_of_others(y, mass, motion), motion);
     if (is_unbiased(flow_) && !product) {
       own.left_out += 1;
       continue;
@@ -168,11 +170,12 @@ void KineticStress<D>::add(const Grains& grains, const Frame<D>& frame)
     } else if (flow_ != MeanFlow::profile) {
       own.about_mean += about((flow_ == MeanFlow::instant ? now : mean_velocity_).of_layer(layer));
     }
-    if (!has_profile) continue;
-    const auto about_profile = about(mean_velocity_.on_profile(y));
+    const auto about_profile =
+        about(over_map ? over_map->at(position) : mean_velocity_.on_profile(y));
     if (flow_ == MeanFlow::profile) {
       own.about_mean += about_profile;
-      own.own_part += mass * mean_velocity_.own_part(y, mass);
+      own.own_part +=
+          mass * (over_map ? over_map->own_part(position, mass) : mean_velocity_.own_part(y, mass));
     }
     own.layer_bias += about(mean_velocity_.of_layer(layer)) - about_profile;
   }
@@ -248,7 +251,6 @@ std::vector<Cell> KineticStress<D>::cells(const SpeciesList& species,
     each_freedom("equipartition", "",
                  layer ? equipartition(*layer) : Temperatures(Temperatures::Constant(no_number)));
   if (is_unbiased(flow_)) each("left_out_{}", [](const Mean& own) { return own.left_out; });
-  if (layers_.map()) return cells;
   for (std::size_t k = 0; k < words.size(); ++k) {
     for (const auto& [suffix, row, column] : components)
       if (row <= column)
@@ -312,7 +314,9 @@ std::vector<Cell> kinetic_cells(const KineticStress<D>& stress, const SpeciesLis
   }
   if (!map) return cells;
   const Vector<D> velocity = layer ? stress.velocity(*layer) : Vector<D>(Vector<D>::Zero());
-  return add_all(cells, flow_fields<D>(velocity, all));
+  add_all(cells, flow_fields<D>(velocity, all));
+  cells.push_back({"shear_rate[1/s]", layer ? stress.shear_rate(*layer) : no_number});
+  return cells;
 }
 
 template std::vector<Cell> kinetic_cells(const KineticStress<2>&, const SpeciesList&, bool, bool,

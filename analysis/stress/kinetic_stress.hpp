@@ -80,13 +80,13 @@ struct Fluctuations {
 ///
 /// The layer bias is the sum about the layer's mean minus the sum about the profile. It is found
 /// for every MeanFlow. For a linear shear it is mass (du/dy h)^2/12 in xx, with h the thickness of
-/// the layer, and 0 in other components. A map has neither profile nor bias.
+/// the layer, and 0 in other components.
 ///
 /// With MeanFlow::instant_unbiased a grain needs two other grains in its layer or cell and frame.
 /// Without them it is part of the mean flow, but not of the sums, nor of their mass and number of
 /// grains, so that temperatures and ratios refer to the same grains. `left_out` is the number of
 /// such grains. With MeanFlow::profile_unbiased a grain is left out if no bin of the profile has
-/// two other grains.
+/// two other grains, or in a map if the plane of its patch needs it.
 ///
 /// The frames of a window are read twice: first for the mean flow, then for the fluctuations.
 template <int D>
@@ -127,6 +127,8 @@ class KineticStress {
     return mean_velocity_.of_layer(layer).template head<D>();
   }
   LayerFlow flow(std::size_t layer) const;
+  /// Rate of shear of the mean flow in a cell of a map, 1/s (map_flow.hpp); NaN without grains.
+  double shear_rate(std::size_t cell) const { return mean_velocity_.over_map()->shear_rate(cell); }
   /// Energy per large grain over energy per small grain in x, y, z and rotation: 1 for
   /// equipartition, the mass ratio for equal velocities. NaN unless both species are present.
   Temperatures equipartition(std::size_t layer) const;
@@ -205,7 +207,7 @@ std::vector<Cell> flow_fields(const Vector<D>& velocity,
 
 /// The columns of grseg-kinetic with the numbers of a layer or cell; without one only the names
 /// matter. `with_contents` adds areas or volumes, which masses do not give if densities differ; a
-/// map also has flow_fields().
+/// map also has flow_fields() and the rate of shear.
 template <int D>
 std::vector<Cell> kinetic_cells(const KineticStress<D>& stress, const SpeciesList& species,
                                 bool with_contents, bool map, std::optional<std::size_t> layer);

@@ -52,8 +52,8 @@ bool differ(const std::string& key, const std::string& a, const std::string& b)
 /// the doubts of the report, which the short table contains itself.
 void remark(const std::vector<Table>& tables, const FitReport& report, bool with_doubts)
 {
-  for (const char* key : {"assign", "width", "layer", "window", "base", "partition", "step", "mean",
-                          "velocity", "composition", "volume", "origin"})
+  for (const char* key : {"bins", "cell", "assign", "width", "layer", "window", "base", "partition",
+                          "step", "mean", "velocity", "composition", "volume", "origin"})
     for (const auto& table : tables)
       if (differ(key, header_or(table, key, ""), header_or(tables[0], key, "")))
         std::cerr << fmt::format("{}: {} and {} differ in '{}'\n", info.name,

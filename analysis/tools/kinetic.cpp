@@ -67,28 +67,14 @@ void tabulate(FrameLoop& loop, MeanFlow flow, VelocityInStep which, const Header
       table.add(window, layer, values_of(cells(stress, layer)));
     remarks.add(stress, species.size(), window.frames.size());
   }
-  table.write(map ? "" : "grseg-fit --quantity kinetic");
+  table.write("grseg-fit --quantity kinetic");
   if (loop.options().quiet) return;
-  for (const auto& sentence : remarks.sentences(flow == MeanFlow::layer && !map))
+  for (const auto& sentence : remarks.sentences(flow == MeanFlow::layer))
     fmt::print(stderr, "{}: {}\n", info.name, sentence);
-}
-
-/// Replaces the default --mean profile by --mean layer for a map, whose cells have no profile.
-/// Throws UsageError if the command line asks for a profile.
-void choose_mean_of_map(Settings& s, const po::variables_map& values)
-{
-  if (!s.frames.map() || (s.mean != "profile" && s.mean != "profile-unbiased")) return;
-  if (!values["mean"].defaulted())
-    throw UsageError(fmt::format(
-        "--mean {} is a profile over height, which a map does not have; use layer, instant, "
-        "instant-unbiased or species, which are means of the cell",
-        s.mean));
-  s.mean = word_of(MeanFlow::layer, mean_flows);
 }
 
 void tabulate(Settings& s, const po::variables_map& values, const std::string& command)
 {
-  choose_mean_of_map(s, values);
   const auto flow = choose(s.mean, "--mean", mean_flows);
   const auto which = choose(s.velocity, "--velocity", velocities_in_step);
   FrameLoop loop(info, values, s.frames);

@@ -99,7 +99,7 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
       table.add(window, layer, add_all(row, values_of(fields_of(sums))));
     }
   }
-  table.write(map ? "" : "grseg-fit");
+  table.write("grseg-fit");
 }
 
 void tabulate(Settings& s, const po::variables_map& values, const std::string& command)

@@ -159,19 +159,21 @@ def check_refusals():
     refused([stress, run, "--bins", "xy", "--composition", "clipped"], 2, "use centre")
     refused([micro, run, "--bins", "xy", "--composition", "clipped"], 2, "use centre")
     refused([micro, run, "--bins", "radius:0,0"], 2, "grseg-micro has layers, xy and xz")
-    refused([kinetic, run, "--bins", "xy", "--mean", "profile"], 2, "use layer, instant, instant-unbiased or species")
-    for mean in "instant", "instant-unbiased", "species":
+    for mean in "profile-unbiased", "layer", "instant", "instant-unbiased", "species":
         subprocess.run([kinetic, run, *MAP, "--mean", mean], check=True, capture_output=True)
     assert not re.search("radius:|rz", subprocess.run([micro, "--help"], check=True, capture_output=True, text=True).stdout)
     refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "the cells are too small")
     refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json writes text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0
-    refused([fit, "map.tsv"], 3, "map.tsv: the table is a map (bins: xy) with rows of cells, not layers")
+    assert call(stress, run, *MAP[2:], "-o", "layers.tsv").returncode == 0
+    refused([fit, "map.tsv", "layers.tsv"], 3, "map.tsv has the cells of a map (xy) and layers.tsv has layers; fit them")
+    refused([fit, "map.tsv", "--min-shear", "1"], 2, "use it with --quantity kinetic")
+    refused([fit, "map.tsv", "--heights", "1000m:"], 1, "outside --heights")
     refused([merge, "map.tsv"], 3, "map.tsv: the table is a map (bins: xy)")
     os.mkdir("mine")
     refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
     refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "contains no 000000.vti")
-    assert sorted(os.listdir()) == ["flow.h5", "map", "map.pvd", "map.tsv", "micro.h5", "mine", "one.vti",
+    assert sorted(os.listdir()) == ["flow.h5", "layers.tsv", "map", "map.pvd", "map.tsv", "micro.h5", "mine", "one.vti",
                                     "stress.h5"], os.listdir()
 
 
@@ -190,24 +192,64 @@ def check_sums():
         assert abs(a - b) <= 1e-11 * np.abs(layers[name][inside]).sum(), (name, a, b)
 
 
+def component(columns, name, pressure):
+    of = [columns[column] for column in columns if re.match(rf"{name}_(xx|yy)\[", column)]
+    return sum(of) / 2 if pressure else of[1]
+
+
+def by_hand(columns, quantity, removed, pressure=False):
+    """B over the cells of a table with half the median solid fraction or more, and the number of these cells."""
+    small, large = (columns[f"area_{k}[m^2]"] if quantity == "contact" else columns[f"mass_{k}[kg]"] for k in "SL")
+    if quantity == "contact":
+        of_large = sum(component(columns, name, pressure) for name in ("A_LL", "Msize", "A_Lb"))
+        whole = sum(component(columns, name, pressure) for name in ("A_SS", "A_LL", "M", "A_Sb", "A_Lb"))
+    else:
+        of_large = component(columns, "K_L", pressure)
+        whole = component(columns, "K_S", pressure) + of_large
+    solid = (small + large) / columns["V[m^2]"]
+    full = solid >= 0.5 * np.median(solid[solid > 0])
+    with np.errstate(all="ignore"):
+        ratio, phi = small / large, large / (small + large)
+    # Cells by window, column and row; columns repeat after a period of the chute.
+    i, j = (np.round((columns[f"{name}0[m]"] - columns[f"{name}0[m]"].min()) / (columns[f"{name}1[m]"] - columns[f"{name}0[m]"])[0])
+            for name in "xy")
+    row_at = {place: row for row, place in enumerate(zip(columns["t0[s]"], i, j))}
+    excess = weight = cells = 0
+    for row, (t, x, y) in enumerate(row_at):
+        if not (full[row] and 0.01 <= ratio[row] <= 100 and whole[row] > 0):
+            continue
+        within = 0
+        for ends in [((x + step) % (i.max() + 1), y) for step in (1, -1)], [(x, y + step) for step in (1, -1)]:
+            near = [row_at.get((t, *end), row) for end in ends]
+            near = [r if full[r] else row for r in near]
+            steps = sum(r != row for r in near)
+            if removed and steps:
+                within += (phi[near[0]] - phi[near[1]]) * (whole[near[0]] - whole[near[1]]) / steps**2 / 12 / whole[row]
+        excess += columns["frames"][row] * (of_large[row] / whole[row] - within - phi[row])
+        weight += columns["frames"][row] * phi[row] * (1 - phi[row])
+        cells += 1
+    return excess / weight, cells
+
+
 def check_b():
-    """B over cells by hand. Cells on the base, or with a solid fraction of 0.3, are left out."""
-    columns = ["t0", "x0", "y0", "V[m^2]", "area_S[m^2]", "area_L[m^2]"]
-    sums = ["A_SS", "A_LL", "M", "Msize", "A_Sb", "A_Lb"]
-    cells = [(0, 0, 0, 1, 0.3, 0.3, 3, 3, 4, 3, 0, 0), (0, 1, 0, 1, 0.3, 0.3, 9, 1, 4, 3, 1, 0),
-             (0, 2, 0, 1, 0.15, 0.15, 9, 1, 4, 3, 0, 0)]
-    with open("cells.tsv", "w") as file:
-        print(*columns, *(f"{name}_{c}" for name in sums for c in ("xx", "yy")), sep="\t", file=file)
-        for cell in cells:
-            print(*cell[:6], *(value / 2 for value in cell[6:] for _ in "xy"), sep="\t", file=file)
-    for name, x in (("kinetic.tsv", "012"), ("other.tsv", "013")):
-        with open(name, "w") as file:
-            print(*columns[:3], "K_S_xx", "K_S_yy", "K_L_xx", "K_L_yy", sep="\t", file=file)
-            for place in x:
-                print(0, place, 0, 1, 2, 1, 0, sep="\t", file=file)
-    tool = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "../../scripts/figures/b-of-map")
-    assert call(tool, "cells.tsv", "kinetic.tsv").stdout == "cells\t1\nsize\t0.4000\nhalf\t0.0000\nkinetic\t-1.0000\n"
-    assert "other cells or windows" in call(tool, "cells.tsv", "other.tsv").stderr
+    """B over cells equals B by hand, of contact and kinetic stress, with and without the part that gradients add."""
+    for tool, quantity in (stress, "contact"), (kinetic, "kinetic"):
+        name = written(tool, f"{quantity}.tsv")
+        columns = table_of(tool)[1]
+        for thickness in "kept", "removed":
+            for part in "yy", "pressure":
+                printed = call(fit, name, "--quantity", quantity, "--thickness", thickness, "--component", part, "--heights",
+                               "all", "--bootstrap", "0", "--quiet").stdout
+                number = {line.split("\t")[4]: float(line.split("\t")[6]) for line in printed.splitlines()
+                          if re.match("size|kinetic|-\t", line)}
+                b, cells = by_hand(columns, quantity, thickness == "removed", part == "pressure")
+                assert cells > 10 and number["points"] == cells, (cells, number)
+                assert abs(number["B"] - b) < 1e-12, (quantity, thickness, part, number["B"], b)
+    shear = table_of(kinetic)[1]["shear_rate[1/s]"]
+    printed = call(fit, "kinetic.tsv", "--quantity", "kinetic", "--heights", "all", "--min-shear", str(np.nanmedian(shear)),
+                   "--quiet").stdout
+    left_out = int(re.search("([0-9]+) below --min-shear", printed)[1])
+    assert 0 < left_out <= (shear < np.nanmedian(shear)).sum(), printed
 
 
 check_hdf5(stress, "stress.h5")

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "analysis/frames/layer_key.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace grseg {
+
+/// A cell of a map in one window.
+struct CellSolid {
+  LayerKey key;
+  double solid = 0;  // area, volume or mass of the grains over the cell's volume
+};
+
+/// Ends of a map where its bed goes on, along its two axes: all of a periodic axis, and the axis of
+/// a drum at r = 0.
+struct OpenEnds {
+  std::array<bool, 2> periodic = {};
+  bool at_axis = false;  // the first axis begins at r = 0
+};
+
+/// True for each row whose cell is inside the bed, for `--heights inside` of a map: no cell within
+/// `margin` (m) of it is empty, or filled to less than half the median solid fraction, averaged over
+/// windows. Beyond an end of the map that is not open there are no grains.
+std::vector<bool> cells_inside(const std::vector<CellSolid>& rows, const OpenEnds& ends,
+                               double margin);
+
+}  // namespace grseg
