@@ -9,7 +9,6 @@
 #include <gsl/gsl_statistics.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
