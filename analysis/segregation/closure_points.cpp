@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/segregation/closure_points.hpp"
 
+#include "analysis/fit/row_neighbours.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/stress/partial_stress.hpp"
@@ -204,18 +205,44 @@ void add_window_before(ClosurePoint& point, const LayerMotion& here,
 struct Stress {
   LayerKey key;
   ContactSums<3> sums;
-  double total = 0;  // yy component, N/m or Pa
+  double total = 0;   // yy component, N/m or Pa
+  double within = 0;  // FitPoint::within
+
+  double solid() const { return (sums.content[0] + sums.content[1]) / key.volume; }
+  double phi() const { return sums.content[1] / (sums.content[0] + sums.content[1]); }
 };
 
-std::map<Place, Stress> stresses_of(const Table& table, const std::vector<PartitionRule>& rules)
+/// What gradients inside a layer add to psi_L - phi_L, as in fit_points().
+double part_within(const std::vector<Stress>& rows, std::size_t row,
+                   const std::vector<RowsBeside>& beside)
+{
+  double products = 0;
+  for (const auto& [below, above, spread] : beside) {
+    const auto &low = rows[below.value_or(row)], &high = rows[above.value_or(row)];
+    products += spread * (high.phi() - low.phi()) * (high.total - low.total);
+  }
+  return rows[row].total > 0 ? products / rows[row].total : 0;
+}
+
+/// `least_solid`: least solid fraction of layers whose differences give gradients.
+std::map<Place, Stress> stresses_of(const Table& table, const std::vector<PartitionRule>& rules,
+                                    double least_solid)
 {
   const ContactSumsReader reader(table, rules);
   const auto keys = read_layer_keys(table, "a table of grseg-stress has it");
-  std::map<Place, Stress> all;
+  std::vector<Stress> rows;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    Stress stress{keys[row], reader.read(row)};
+    auto& stress = rows.emplace_back(Stress{keys[row], reader.read(row)});
     stress.sums.volume = keys[row].volume;
     stress.total = partial_stress(stress.sums, PartitionRule{}).total(1, 1);
+  }
+  const RowNeighbours neighbours(table, keys);
+  std::map<Place, Stress> all;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    auto stress = rows[row];
+    stress.within = part_within(rows, row, neighbours.beside(row, [&](std::size_t other) {
+      return rows[other].solid() > 0 && rows[other].solid() >= least_solid;
+    }));
     all.emplace(place_of(keys[row]), std::move(stress));
   }
   return all;
@@ -223,15 +250,15 @@ std::map<Place, Stress> stresses_of(const Table& table, const std::vector<Partit
 
 void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<PartitionRule>& rules)
 {
-  const double small = stress.sums.content[0], large = stress.sums.content[1];
-  const double phi = large / (small + large);
+  const double phi = stress.phi();
   point.phi_large = phi;
   point.product = phi * (1 - phi);
   for (const auto& rule : rules) {
     const auto parts = partial_stress(stress.sums, rule);
     const double total = parts.total(1, 1);
     const bool has_share = rule.adds_up() && total > 0;
-    point.excess.push_back(has_share ? parts.large()(1, 1) / total - phi : no_number);
+    point.excess.push_back(has_share ? parts.large()(1, 1) / total - phi - stress.within
+                                     : no_number);
   }
 }
 
@@ -312,7 +339,7 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
   });
   const auto range = filter.range(units, layers);
   for (const auto& motion : list) rows.motions.emplace(place_of(motion.key), motion);
-  rows.stresses = stresses_of(*tables.stress, rules);
+  rows.stresses = stresses_of(*tables.stress, rules, range.least_solid);
 
   data.rows += list.size();
   for (const auto& motion : list) {

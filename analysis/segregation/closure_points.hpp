@@ -54,8 +54,10 @@ struct ClosurePoint {
   double diameter = no_number;      // mean nominal diameter phi_S d_S + phi_L d_L, m
   // From the table of stress.
   double phi_large = 0;
-  double product = 0;          // phi_L phi_S
-  std::vector<double> excess;  // psi_L - phi_L by rule, then for shares 0 and 1 of mixed contacts
+  double product = 0;  // phi_L phi_S
+  // psi_L - phi_L by rule, then for shares 0 and 1 of mixed contacts; without what gradients inside
+  // the layer add (FitPoint::within)
+  std::vector<double> excess;
 };
 
 /// Instrumental variables of the regression (closure.hpp).
