@@ -212,7 +212,7 @@ struct Stress {
   double phi() const { return sums.content[1] / (sums.content[0] + sums.content[1]); }
 };
 
-/// What gradients inside a layer add to psi_L - phi_L, as in fit_points().
+/// The part of psi_L - phi_L that gradients inside a layer add, as in fit_points().
 double part_within(const std::vector<Stress>& rows, std::size_t row,
                    const std::vector<RowsBeside>& beside)
 {

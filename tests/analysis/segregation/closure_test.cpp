@@ -100,6 +100,11 @@ Tables tables_of(const Made& made, const std::string& input, synthetic::Ar1* noi
                                    phi, (1 - phi) * (1 - made.b * phi) * Tensor2::Identity(),
                                    phi * (1 + made.b * (1 - phi)) * Tensor2::Identity())
                              : synthetic::neutral_sums(phi, 2);
+      if (!(made.c > 0))  // one stress in all layers, so that gradients add nothing to B of a layer
+        for (auto* sum :
+             {&sums.of(OwnSum::inside, 0), &sums.of(OwnSum::inside, 1), &sums.of(PairSum::whole, 0),
+              &sums.of(PairSum::by_size, 0), &sums.of(PairSum::up_to_contact, 0)})
+          *sum *= 2 - phi;
       sums.volume = area;
       for (auto& content : sums.content) content *= area;
       rows.push_back({begin, begin + 1.25, 25, sums, n * layer, (n + 1) * layer});
@@ -140,6 +145,29 @@ TEST(SegregationClosure, CoefficientsForOtherRunsComeWithTheMeanShearOfTheFitted
   EXPECT_NEAR(found.shear_d, 20 * 0.00675, 1e-12);
   EXPECT_GT(found.shear_d2, 20 * 0.00675 * 0.00675);
   EXPECT_LT(found.shear_d2, 20 * 0.00675 * 0.00675 * 1.1);
+}
+
+// B = 0 at every height of a linear bed; the means of its layers have the excess h^2/12 phi_L' sigma'/sigma.
+TEST(SegregationClosure, GradientsInsideALayerAddNothingToB)
+{
+  auto run = tables_of({}, "a");
+  std::vector<synthetic::TableRow> rows;
+  for (int window = 0; window < 20; ++window)
+    for (int n = 0; n < 10; ++n) {
+      const double phi = phi_of(n, window / 19.0), stress = 20 - 1.5 * n;
+      const double large = phi * stress - gradient_of(window / 19.0) * layer * 1.5 / 12;
+      auto sums = synthetic::separate_sums(phi, (stress - large) * Tensor2::Identity(),
+                                           large * Tensor2::Identity());
+      const double begin = 1.25 * window;
+      rows.push_back({begin, begin + 1.25, 25, sums, n * layer, (n + 1) * layer});
+    }
+  const auto header = run.stress.header;
+  const auto name = run.stress.name;
+  run.stress = synthetic::stress_table(rows);
+  run.stress.header = header;
+  run.stress.name = name;
+  const auto summary = summary_of({run.segregation, run.stress});
+  EXPECT_NEAR(number_of(summary, "B@half").value, 0, 1e-13);
 }
 
 TEST(SegregationClosure, AFluxWithoutNoiseGivesItsCoefficientsFromTablesInAnyOrder)
