@@ -2,6 +2,7 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/sums.hpp"
 #include "analysis/segregation/closure_points.hpp"
 #include "analysis/segregation/named_numbers.hpp"
 #include "analysis/segregation/prediction.hpp"
@@ -101,8 +102,8 @@ void predict_runs(const Settings& s, const std::vector<Table>& fitted, const Clo
   for (const auto& path : s.predict) tables.push_back(Table::read(path));
   refuse_fitted_runs(tables, fitted);
   const auto coefficients = flux_coefficients(data);
-  std::vector<Prediction> predictions;
-  for (const auto& table : tables) predictions.push_back(predict(table, coefficients, s.filter));
+  const auto predictions =
+      listed(tables, [&](const Table& table) { return predict(table, coefficients, s.filter); });
   add_predictions(summary, predictions);
   if (s.profiles.path.empty()) return;
   auto profiles = prediction_table(predictions);
