@@ -172,8 +172,7 @@ def elastic_energy(run):
     inverse = np.where(run.fixed, 0, 1 / run.mass)
     inverse = inverse[run.i] + np.where(run.j >= 0, inverse[run.j], 0)
     impulse = run.part[run.frame_of] * run.normal_force
-    sweeps = np.clip(run.observables["sweeps"], 1, run.parameters["min_sweeps"])
-    return run.sum_of_contacts(inverse * impulse**2) / (2 * sweeps)
+    return run.sum_of_contacts(inverse * impulse**2) / (2 * max(run.parameters["min_sweeps"], 1))
 
 
 def free_work(run):

@@ -68,8 +68,21 @@ class Trajectory:
 
     @functools.cached_property
     def follows(self):
-        """True for frames whose step was not divided and follows directly on the step of the frame before [F]."""
-        return self.whole & (np.diff(self.step, prepend=self.step[0]) == 1)
+        """True for frames whose step was not divided and follows directly on the step of the frame before, with the velocities
+        of that frame [F]."""
+        return self.whole & (np.diff(self.step, prepend=self.step[0]) == 1) & ~self.slowed
+
+    @functools.cached_property
+    def slowed(self):
+        """True for frames of a deposition that begin with the velocities of the frame before after grains were slowed down: all
+        velocities are halved but downward ones (sim/scene/deposition.hpp) [F]."""
+        slowed = np.zeros(self.frames, bool)
+        old = self.velocity[:-1][:, self.mobile]
+        down = (old < 0) & (np.arange(3) == 1)
+        left = np.abs(self.before[1:][:, self.mobile] - np.where(down, old, old / 2)).max(axis=(1, 2))
+        told = self.time[1:] > self.parameters.get("deposition_slowed_from", 0)
+        slowed[1:] = told & (self.time[1:] <= 0) & (left < 1e-9 * np.abs(old).max(axis=(1, 2)))
+        return slowed
 
     @functools.cached_property
     def gravity(self):

@@ -58,6 +58,7 @@ void visit_all(Visitor& visit, SomeCheckpoint& c)
   visit("/box/periodic_z", c.box.periodic_z);
   visit("/state/steps_done", c.state.steps_done);
   visit("/state/held_back", c.state.held_back);
+  visit("/state/stored", c.state.stored);
   visit("/state/position", c.state.position);
   visit("/state/image", c.state.image);
   visit("/state/velocity", c.state.velocity);

@@ -198,8 +198,21 @@ void announce(const Scene& scene, double begin, const RunOptions& options)
 
 /// Remarks on a deposition, for the user.
 struct DepositionRemarks {
-  double slowed_from = 0;  // s, time from which grains were slowed down; 0: they were not
+  double lasted = 0;       // s, duration of the last attempt
+  double slowed_from = 0;  // s, time from which its grains were slowed down; 0: they were not
   bool layered = false;    // mixed grains fell in layers of one species
+
+  /// Called after each step; the time begins at 0 in each attempt.
+  void step_to(double time)
+  {
+    if (time < lasted) slowed_from = 0;
+    lasted = time;
+  }
+
+  void add_to(Parameters& parameters) const
+  {
+    if (slowed_from > 0) parameters.numbers["deposition_slowed_from"] = {slowed_from - lasted};
+  }
 
   std::string text() const
   {
@@ -229,6 +242,7 @@ Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options,
   const auto step = [&](double time) {
     if (interrupted()) throw interruption("interrupted during the deposition of the bed");
     progress.show(time);
+    remarks.step_to(time);
   };
   const auto slowed = [&](double time) {
     if (remarks.slowed_from == 0) remarks.slowed_from = time;
@@ -255,8 +269,10 @@ void simulate_in(const Scene& scene, const RunOptions& options)
   DepositionRemarks remarks;
   const auto deposited = deposit_visibly<D>(scene, options, remarks);
   const auto simulation = release(deposited, scene);
+  auto parameters = provenance(scene, options);
+  remarks.add_to(parameters);
   Run<D> run{simulation,
-             new_trajectory(scene, simulation, provenance(scene, options), part),
+             new_trajectory(scene, simulation, parameters, part),
              {},
              bed_height(deposited, scene.geometry->boundaries(scene).top),
              options.command_line};

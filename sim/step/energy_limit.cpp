@@ -139,13 +139,12 @@ double Simulation<D>::energy_gain(double held_back)
 }
 
 template <int D>
-double Simulation<D>::most_gain(int sweeps) const
+double Simulation<D>::work_of_fall() const
 {
   const auto falling = [&](double mass, double force) {
     return force * force * world_.step * world_.step / (8 * mass);
   };
-  double acceleration = world_.gravity.norm();
-  double most = held_back_ + found_.strain / std::max(sweeps, 1);
+  double acceleration = world_.gravity.norm(), most = 0;
   for (const auto& body : world_.bodies) {
     acceleration += largest_acceleration(body);
     if (body.free()) most += falling(body.mass, body.load);
@@ -206,14 +205,27 @@ void Simulation<D>::apply(const Eigen::VectorXd& solution)
 }
 
 template <int D>
+void Simulation<D>::stop_rebounds()
+{
+  for (auto& strip : contacts_)
+    for (auto& block : std::span(strip.blocks).first(strip.size))
+      for (auto& rebound : block.rebound) rebound = std::min(rebound, 0.0);
+}
+
+template <int D>
+void Simulation<D>::stop_later_rebounds()
+{
+  for (auto& strip : contacts_)
+    for (auto& origin : std::span(strip.origins).first(strip.size)) origin.approach.fill(0);
+}
+
+template <int D>
 void Simulation<D>::solve_within_limit(double most, StepReport& report)
 {
   Eigen::VectorXd above = solution();
   apply(-above);
   set_impulses(above);
-  for (auto& strip : contacts_)
-    for (auto& block : std::span(strip.blocks).first(strip.size))
-      for (auto& rebound : block.rebound) rebound = std::min(rebound, 0.0);
+  stop_rebounds();
   report.solver.sweeps += run_solver().sweeps;
   Eigen::VectorXd within = solution();
   apply(-within);
@@ -223,6 +235,7 @@ void Simulation<D>::solve_within_limit(double most, StepReport& report)
     apply(-trial);
     return gain;
   };
+  if (gain_of(within) > most) stop_later_rebounds();
   if (gain_of(within) > most) {
     above = within;
     within.setZero();
@@ -237,11 +250,11 @@ template MotionSums<2> motion_sums(const GrainState<2>&, int);
 template MotionSums<3> motion_sums(const GrainState<3>&, int);
 template void Simulation<2>::begin_budget();
 template double Simulation<2>::energy_gain(double);
-template double Simulation<2>::most_gain(int) const;
+template double Simulation<2>::work_of_fall() const;
 template void Simulation<2>::solve_within_limit(double, StepReport&);
 template void Simulation<3>::begin_budget();
 template double Simulation<3>::energy_gain(double);
-template double Simulation<3>::most_gain(int) const;
+template double Simulation<3>::work_of_fall() const;
 template void Simulation<3>::solve_within_limit(double, StepReport&);
 
 }  // namespace grseg

@@ -14,12 +14,14 @@
 ///
 /// with impulses p and relative velocities u, u' before and after the step, to
 ///
-///   W + T  <=  T_before + E/N + M (a h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
+///   W + T  <=  T_before + S + M (a h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
 ///
 ///   T  energy that pairs gave up because they are slowed down before they touch; they get it back
 ///      in the next step, when they rebound (ImpulseSums::held_back); T_before: of the last step
-///   E  sum of W_nn p_n^2/2 over the impulses of the last step (DetectionSums::strain). With N sweeps
-///      a contact is as soft as a spring of stiffness N m/h^2, and can return p_n^2 W_nn/(2 N)
+///   S  energy that contacts may return as springs. With N sweeps a contact is as soft as a spring of
+///      stiffness N m/h^2, which an impulse fills with W_nn p_n^2/(2 N). S is at most the sum over the
+///      impulses of the last step (DetectionSums::strain), and at most what is left of it: a step
+///      lowers S by the energy that it returned, or raises it by the energy that it took
 ///   a  gravity and the largest acceleration of a moving boundary
 ///
 /// The last two terms hold for exact solutions without rebounds, where p . u' <= 0: a grain of mass m
@@ -27,8 +29,12 @@
 /// the sum of p . u'. The largest value of -m q . (g h + q)/2 is m (g h)^2/8. Relative to an
 /// accelerating boundary, gravity is as much larger.
 ///
-/// A step above the limit is solved again without rebounds. Then impulses are moved from the first
-/// solution towards the second one until the limit is met; if the second one also exceeds it,
+/// So over any number of undriven steps energy + T rises by at most S at their begin and these two
+/// terms per step.
+///
+/// A step above the limit is solved again without rebounds. If this solution also exceeds it, pairs
+/// that it slows down do not rebound later either: T = 0. Then impulses are moved from the first
+/// solution towards the second one until the limit is met; if the second one still exceeds it,
 /// because sweeps stopped early, towards no impulses. Impulses stay within Coulomb's cone.
 /// docs/studies/accuracy.md has the measurements.
 namespace grseg {

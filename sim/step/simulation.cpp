@@ -190,6 +190,7 @@ Simulation<D>::Simulation(const World<D>& world, const State& state)
   restored_ = true;
   steps_done_ = state.steps_done;
   held_back_ = state.held_back;
+  stored_ = state.stored;
 }
 
 template <int D>
@@ -207,6 +208,7 @@ auto Simulation<D>::state() const -> State
   state.pairs = pairs_.state();
   state.steps_done = steps_done_;
   state.held_back = held_back_;
+  state.stored = stored_;
   return state;
 }
 
@@ -439,7 +441,10 @@ void Simulation<D>::keep_impulses(StepReport& report)
 {
   auto sums = store_impulses();
   double gain = energy_gain(sums.held_back);
-  const double most = most_gain(report.solver.sweeps);
+  const double exact = work_of_fall();
+  stored_ = std::min(stored_,
+                     found_.strain / std::max({report.solver.sweeps, world_.solver.min_sweeps, 1}));
+  const double most = held_back_ + stored_ + exact;
   report.solved_again = gain > most;
   if (report.solved_again) {
     solve_within_limit(most, report);
@@ -447,6 +452,8 @@ void Simulation<D>::keep_impulses(StepReport& report)
     gain = most;
   }
   report.energy_gain = gain - held_back_;
+  stored_ -=
+      report.energy_gain < 0 ? report.energy_gain : std::max(report.energy_gain - exact, 0.0);
   end_known_ = true;
   held_back_ = sums.held_back;
   lower_guesses();

@@ -10,6 +10,7 @@
 #include "sim/step/world.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace grseg {
@@ -65,7 +66,8 @@ class Simulation {
     std::vector<std::int32_t> row;        // row of each grain, in the order of memory
     typename PairList<D>::State pairs;
     std::int64_t steps_done = 0;
-    double held_back = 0;  // J, see energy_limit.hpp
+    double held_back = 0;                                // J, T of energy_limit.hpp
+    double stored = std::numeric_limits<double>::max();  // J, S of energy_limit.hpp
   };
 
   /// Grains start at `position` at rest.
@@ -159,8 +161,10 @@ class Simulation {
   double work_of_boundaries() const;  // J, on grains, and energy that free bodies lost
   /// Left side of the limit, J, less the round-off. `held_back`: T.
   double energy_gain(double held_back);
-  double most_gain(int sweeps) const;  // right side of the limit, J
+  double work_of_fall() const;  // the last two terms of the limit, J
   void solve_within_limit(double most, StepReport& report);
+  void stop_rebounds();        // of contacts that bear impulses in this step
+  void stop_later_rebounds();  // of pairs that this step slows down before they touch
   /// Impulses of all blocks, kg m/s, and changes of velocities of World::bodies by contacts, m/s.
   Eigen::VectorXd solution();
   void set_impulses(const Eigen::VectorXd& solution);
@@ -192,7 +196,8 @@ class Simulation {
   MotionSums<D> at_begin_, at_end_;       // at the beginning and at the end of the step
   bool end_known_ = false;                // true if at_end_ describes the present motion
   std::vector<Motion<D>> bodies_before_;  // of the grains of World::bodies, at the beginning
-  double held_back_ = 0;                  // J, in the last step
+  double held_back_ = State{}.held_back;  // J, in the last step
+  double stored_ = State{}.stored;        // J, after the last step
   std::int64_t steps_done_ = 0;
   bool restored_ = false;  // true if contacts_ do not belong to the previous step
 };

@@ -59,6 +59,7 @@ inline Checkpoint<2> checkpoint_of(const Simulation<2>& simulation, const Scene&
   totals.largest_residual = 0.1;
   auto state = simulation.state();
   state.held_back = 1.0 / 9;
+  state.stored = 1.0 / 11;
   return {{to_text(scene),
            "a test",
            "first\nsecond",

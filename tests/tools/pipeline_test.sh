@@ -70,6 +70,12 @@ $bin/grseg-stress strict.h5 --window 0.1 --quiet >/dev/null
 $bin/grseg-sim $small --duration 0.2 --keep-deposition -o deposition.h5
 first=$(h5dump -d /particles/grains/position/time -s 0 -c 1 deposition.h5 | sed -n 's/.*(0): //p')
 case $first in -*) ;; *) fail "the first frame of the deposition is at t = $first" ;; esac
+# Elastic grains without friction do not come to rest by themselves. The file says from when on they were slowed down.
+h5dump -d /parameters/deposition_slowed_from deposition.h5 >/dev/null 2>&1 && fail "a bed at rest was slowed down"
+# shellcheck disable=SC2086
+$bin/grseg-sim $small --friction 0 --restitution 1 --duration 0.1 -o elastic.h5
+slowed=$(h5dump -d /parameters/deposition_slowed_from elastic.h5 | sed -n 's/.*(0): //p')
+case $slowed in -*) ;; *) fail "grains were slowed down from t = $slowed on" ;; esac
 
 # A burst consists of consecutive steps, and the narrowest instructions give the same bytes as the widest.
 # shellcheck disable=SC2086

@@ -125,6 +125,7 @@ TEST_F(CheckpointFile, WhatIsWrittenIsReadBackToTheLastBit)
   EXPECT_EQ(read.state.rim, written.state.rim);
   EXPECT_EQ(read.state.row, written.state.row);
   EXPECT_EQ(read.state.held_back, written.state.held_back);
+  EXPECT_EQ(read.state.stored, written.state.stored);
   EXPECT_EQ(read.state.steps_done, 50);
   EXPECT_EQ(read.state.pairs.made_at, written.state.pairs.made_at);
   EXPECT_EQ(read.state.pairs.i, written.state.pairs.i);
