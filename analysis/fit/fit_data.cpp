@@ -368,22 +368,6 @@ struct PairStress {
   double small, large, total;
 };
 
-/// FitPoint::within. stress_of(row): total stress of a row.
-template <class StressOf>
-double part_within(const FitData& data, const LayerSample& sample, const StressOf& stress_of)
-{
-  const double stress = stress_of(sample.row);
-  if (!(stress > 0)) return 0;
-  double products = 0;
-  for (const auto& [beside_below, beside_above, spread] : sample.beside) {
-    const auto below = beside_below.value_or(sample.row), above = beside_above.value_or(sample.row);
-    const double rise =
-        phi_large(data.rows[above], sample.pair) - phi_large(data.rows[below], sample.pair);
-    products += spread * rise * (stress_of(above) - stress_of(below));
-  }
-  return products / stress;
-}
-
 }  // namespace
 
 std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
@@ -415,7 +399,9 @@ std::vector<FitPoint> fit_points(const FitData& data, const PartitionRule& rule,
                       sample.size_ratio, small, large, total});
     if (settings.thickness == Thickness::removed)
       points.back().within = part_within(
-          data, sample, [&](std::size_t row) { return stress_of(row, sample.pair).total; });
+          sample.row, sample.beside,
+          [&](std::size_t row) { return phi_large(data.rows[row], sample.pair); },
+          [&](std::size_t row) { return stress_of(row, sample.pair).total; });
   }
   return points;
 }

@@ -30,6 +30,22 @@ struct RowsBeside {
   }
 };
 
+/// Part of psi_L - phi_L of `row` that gradients inside it add (FitPoint::within), from phi_of(row)
+/// and stress_of(row) of the row and of those beside it. 0 if its stress is not positive.
+template <class PhiOf, class StressOf>
+double part_within(std::size_t row, const std::vector<RowsBeside>& beside, const PhiOf& phi_of,
+                   const StressOf& stress_of)
+{
+  const double stress = stress_of(row);
+  if (!(stress > 0)) return 0;
+  double products = 0;
+  for (const auto& [below, above, spread] : beside) {
+    const auto low = below.value_or(row), high = above.value_or(row);
+    products += spread * (phi_of(high) - phi_of(low)) * (stress_of(high) - stress_of(low));
+  }
+  return products / stress;
+}
+
 /// Finds the rows beside each row of a table: below and above a layer, inside and outside an
 /// annulus, and in both directions of a map, across a period of the run (header line "periodic").
 ///

@@ -212,18 +212,6 @@ struct Stress {
   double phi() const { return sums.content[1] / (sums.content[0] + sums.content[1]); }
 };
 
-/// The part of psi_L - phi_L that gradients inside a layer add, as in fit_points().
-double part_within(const std::vector<Stress>& rows, std::size_t row,
-                   const std::vector<RowsBeside>& beside)
-{
-  double products = 0;
-  for (const auto& [below, above, spread] : beside) {
-    const auto &low = rows[below.value_or(row)], &high = rows[above.value_or(row)];
-    products += spread * (high.phi() - low.phi()) * (high.total - low.total);
-  }
-  return rows[row].total > 0 ? products / rows[row].total : 0;
-}
-
 /// `least_solid`: least solid fraction of layers whose differences give gradients.
 std::map<Place, Stress> stresses_of(const Table& table, const std::vector<PartitionRule>& rules,
                                     double least_solid)
@@ -240,9 +228,12 @@ std::map<Place, Stress> stresses_of(const Table& table, const std::vector<Partit
   std::map<Place, Stress> all;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     auto stress = rows[row];
-    stress.within = part_within(rows, row, neighbours.beside(row, [&](std::size_t other) {
+    const auto beside = neighbours.beside(row, [&](std::size_t other) {
       return rows[other].solid() > 0 && rows[other].solid() >= least_solid;
-    }));
+    });
+    stress.within = part_within(
+        row, beside, [&](std::size_t other) { return rows[other].phi(); },
+        [&](std::size_t other) { return rows[other].total; });
     all.emplace(place_of(keys[row]), std::move(stress));
   }
   return all;
