@@ -29,10 +29,9 @@ double round_off(Precision precision)
   return precision == Precision::mixed ? 1e-6 : 1e-12;
 }
 
-}  // namespace
-
-template <int D>
-MotionSums<D> motion_sums(const GrainState<D>& grains, int threads)
+/// Sums over all grains; calls also(b) for each grain b in the same pass.
+template <int D, class Also>
+MotionSums<D> sums_over(const GrainState<D>& grains, int threads, const Also& also)
 {
   struct Sums {
     Numbers<D> squares = Numbers<D>::Zero(), momenta = Numbers<D>::Zero();
@@ -48,6 +47,7 @@ MotionSums<D> motion_sums(const GrainState<D>& grains, int threads)
       const Numbers<D> momentum = mass * numbers;
       sums.squares += momentum * numbers;
       sums.momenta += momentum;
+      also(b);
     }
     found[begin / range_size] = sums;
   });
@@ -57,6 +57,28 @@ MotionSums<D> motion_sums(const GrainState<D>& grains, int threads)
     total.momentum += sums.momenta.template head<D>().matrix();
   }
   return total;
+}
+
+}  // namespace
+
+template <int D>
+MotionSums<D> motion_sums(const GrainState<D>& grains, int threads)
+{
+  return sums_over(grains, threads, [](std::size_t) {});
+}
+
+template <int D>
+MotionSums<D> motion_sums(double duration, const GrainState<D>& grains,
+                          std::vector<Position<D>>& later, int threads)
+{
+  later.resize(grains.position.size());
+  later.back() = grains.position.back();
+  const auto* position = grains.position.data();
+  const auto* motion = grains.motion.data();
+  auto* then = later.data();
+  return sums_over(grains, threads, [=](std::size_t b) {
+    then[b] = position[b] + displacement<D>(duration, motion[b]);
+  });
 }
 
 double last_within(const std::array<double, 3>& f, double most)
@@ -126,9 +148,8 @@ double Simulation<D>::work_of_boundaries() const
 }
 
 template <int D>
-double Simulation<D>::energy_gain(double held_back)
+double Simulation<D>::energy_gain(double held_back) const
 {
-  at_end_ = motion_sums(state_, threads_);
   const double by_gravity =
       world_.step * world_.gravity.dot(at_begin_.momentum + at_end_.momentum) / 2;
   const double by_boundaries = work_of_boundaries();
@@ -231,6 +252,7 @@ void Simulation<D>::solve_within_limit(double most, StepReport& report)
   apply(-within);
   const auto gain_of = [&](const Eigen::VectorXd& trial) {
     apply(trial);
+    at_end_ = motion_sums(state_, threads_);
     const double gain = energy_gain(store_impulses().held_back);
     apply(-trial);
     return gain;
@@ -243,17 +265,19 @@ void Simulation<D>::solve_within_limit(double most, StepReport& report)
   const Eigen::VectorXd middle = (within + above) / 2;
   const double part = last_within({gain_of(within), gain_of(middle), gain_of(above)}, most);
   apply(within + part * (above - within));
-  at_end_ = motion_sums(state_, threads_);
+  at_end_ = motion_sums(world_.step / 2, state_, ahead_, threads_);
 }
 
 template MotionSums<2> motion_sums(const GrainState<2>&, int);
 template MotionSums<3> motion_sums(const GrainState<3>&, int);
+template MotionSums<2> motion_sums(double, const GrainState<2>&, std::vector<Position<2>>&, int);
+template MotionSums<3> motion_sums(double, const GrainState<3>&, std::vector<Position<3>>&, int);
 template void Simulation<2>::begin_budget();
-template double Simulation<2>::energy_gain(double);
+template double Simulation<2>::energy_gain(double) const;
 template double Simulation<2>::work_of_fall() const;
 template void Simulation<2>::solve_within_limit(double, StepReport&);
 template void Simulation<3>::begin_budget();
-template double Simulation<3>::energy_gain(double);
+template double Simulation<3>::energy_gain(double) const;
 template double Simulation<3>::work_of_fall() const;
 template void Simulation<3>::solve_within_limit(double, StepReport&);
 

@@ -47,6 +47,10 @@ struct MotionSums {
 };
 template <int D>
 MotionSums<D> motion_sums(const GrainState<D>& grains, int threads);
+/// The same; the pass also writes the positions after `duration`, s, to `later`.
+template <int D>
+MotionSums<D> motion_sums(double duration, const GrainState<D>& grains,
+                          std::vector<Position<D>>& later, int threads);
 
 /// Largest x in [0, 1] for which a parabola with the values f(0) <= most, f(1/2), f(1) > most is at
 /// most `most` between 0 and x.

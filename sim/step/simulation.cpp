@@ -271,7 +271,7 @@ bool Simulation<D>::try_to_take(const Part& part, Frame<D>* frame, StepReport& r
   solve(report);
   keep_impulses(report);
   if (frame != nullptr) write_frame(middle, *frame);
-  move_bodies(h / 2, state_, threads_);
+  state_.position.swap(ahead_);
   return true;
 }
 
@@ -440,6 +440,7 @@ template <int D>
 void Simulation<D>::keep_impulses(StepReport& report)
 {
   auto sums = store_impulses();
+  at_end_ = motion_sums(world_.step / 2, state_, ahead_, threads_);
   double gain = energy_gain(sums.held_back);
   const double exact = work_of_fall();
   stored_ = std::min(stored_,

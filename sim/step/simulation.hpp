@@ -159,8 +159,8 @@ class Simulation {
   /// at rest.
   Vector<D> mean_velocity(std::size_t b, double lever, const Vector<D>& n) const;
   double work_of_boundaries() const;  // J, on grains, and energy that free bodies lost
-  /// Left side of the limit, J, less the round-off. `held_back`: T.
-  double energy_gain(double held_back);
+  /// Left side of the limit, J, less the round-off. `held_back`: T. To be called when at_end_ is known.
+  double energy_gain(double held_back) const;
   double work_of_fall() const;  // the last two terms of the limit, J
   void solve_within_limit(double most, StepReport& report);
   void stop_rebounds();        // of contacts that bear impulses in this step
@@ -183,7 +183,8 @@ class Simulation {
   PairList<D> pairs_;
   GrainState<D> state_;
   std::vector<std::uint32_t> body_of_;     // per row of Grains, index in state_
-  std::vector<Position<D>> ahead_;         // m, positions after LawParameters::forecast
+  std::vector<Position<D>> ahead_;         // m, positions after LawParameters::forecast; after the
+                                           // solve, positions at the end of the step
   std::vector<Position<D>> ahead_at_end_;  // m, half a step later; computed for fast grains only
   double most_approach_;                   // m, see most_approach()
   double mobile_mass_;                     // kg, sum over all mobile grains
