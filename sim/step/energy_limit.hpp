@@ -47,7 +47,7 @@ struct MotionSums {
 };
 template <int D>
 MotionSums<D> motion_sums(const GrainState<D>& grains, int threads);
-/// The same; the pass also writes the positions after `duration`, s, to `later`.
+/// Also writes the positions after `duration`, s, to `later`, in one pass.
 template <int D>
 MotionSums<D> motion_sums(double duration, const GrainState<D>& grains,
                           std::vector<Position<D>>& later, int threads);
