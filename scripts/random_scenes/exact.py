@@ -179,21 +179,23 @@ def free_work(run):
     """Largest work of contacts in each frame's step without rebounds, J.
 
     Contacts with impulses p, and relative velocities u before and u' after the step, do the work W = p.(u + u')/2. The
-    velocity of a grain changes by g h + q, with m q the sum of impulses on it. So W = p.u' - sum of m q.(g h + q)/2, less
-    a positive term of rotation, and W <= p.u' + M (g h)^2/8 for any impulses. Without rebounds p.u' <= 0. Relative to an
-    accelerating boundary, gravity is as much larger."""
-    fall = (np.linalg.norm(run.gravity, axis=1) + acceleration_of_boundary(run)) * run.part
-    work = run.mass[run.mobile].sum() * fall**2 / 8
+    velocity of a grain changes by g h + q, with m q the sum of impulses on it, and that of a boundary's surface by V' - V. So
+    W = p.u' + sum of p.(V' - V)/2 - sum of m q.(g h + q)/2, less a positive term of rotation. Without rebounds p.u' <= 0,
+    and -m q.(g h + q)/2 is at most m (g h)^2/8 for any q."""
+    fall = np.linalg.norm(run.gravity, axis=1) * run.part
+    work = run.mass[run.mobile].sum() * fall**2 / 8 + push_of_boundaries(run)
     if run.keys["geometry"] == "shear":  # the plate falls by its load
         work += (run.number("plate-pressure") * run.base_area * run.part) ** 2 / (8 * run.number("plate-mass"))
     return work
 
 
-def acceleration_of_boundary(run):
-    """Largest acceleration of a ring or a shaken base, m/s^2."""
-    if run.keys["geometry"] == "drum":
-        return run.number("drum-rate") ** 2 * run.number("drum-diameter") / 2
-    return run.number("shake-amplitude") * (2 * np.pi * run.number("shake-frequency")) ** 2 if run.keys["geometry"] == "bed" else 0
+def push_of_boundaries(run):
+    """The sum of p.(V' - V)/2 in each frame's step, J, if it is above 0; without the motion that a free plate has along y."""
+    change = (run.velocity - run.before)[run.frame_of, run.j]
+    if run.keys["geometry"] == "shear":
+        change[:, 1] = 0
+    push = run.part[run.frame_of] * np.einsum("ca,ca->c", run.contact_force, change) / 2
+    return np.maximum(run.sum_of_contacts(np.where((run.j >= 0) & run.fixed[run.j], push, 0)), 0)
 
 
 def energy_of_contacts(run):

@@ -104,7 +104,8 @@ void Simulation<D>::begin_budget()
 }
 
 template <int D>
-Vector<D> Simulation<D>::mean_velocity(std::size_t b, double lever, const Vector<D>& n) const
+SurfaceMotion<D> Simulation<D>::surface_motion(std::size_t b, double lever,
+                                               const Vector<D>& n) const
 {
   const auto row = static_cast<std::uint32_t>(state_.row[b]);
   const auto* before = bodies_before_.data();
@@ -114,29 +115,33 @@ Vector<D> Simulation<D>::mean_velocity(std::size_t b, double lever, const Vector
       continue;
     }
     const auto& motion = state_.motion[b];
-    Vector<D> mean = (vector_of(before[row - body.begin].v) + vector_of(motion.v)) / 2;
-    if (body.free()) mean.y() = 0;
+    const Vector<D> was = vector_of(before[row - body.begin].v), now = vector_of(motion.v);
+    SurfaceMotion<D> surface{(was + now) / 2, now - was};
+    if (body.free()) surface.mean.y() = surface.change.y() = 0;
     const auto rim = spin_of<D>(motion.rim);
     if constexpr (D == 2)
-      return mean + lever * rim * Vec2(-n.y(), n.x());
+      surface.mean += lever * rim * Vec2(-n.y(), n.x());
     else
-      return mean + lever * rim.cross(n);
+      surface.mean += lever * rim.cross(n);
+    return surface;
   }
-  return Vector<D>::Zero();
+  return {};
 }
 
 template <int D>
-double Simulation<D>::work_of_boundaries() const
+WorkOfBoundaries Simulation<D>::work_of_boundaries() const
 {
-  if (world_.bodies.empty()) return 0;
-  double work = 0;
+  if (world_.bodies.empty()) return {};
+  double work = 0, change = 0;
   for (const auto& strip : contacts_)
     for (std::size_t slot = strip.on_base * block_lanes; slot < strip.size * block_lanes; ++slot) {
       const auto& block = strip.blocks[slot / block_lanes];
       const std::size_t lane = slot % block_lanes, j = block.j[lane] / numbers_per_body<D>;
       if (!(block.impulse_n[lane] > 0) || j == state_.immobile()) continue;
-      work +=
-          impulse_of(block, lane).dot(mean_velocity(j, block.kappa[lane], at_lane(block.n, lane)));
+      const auto surface = surface_motion(j, block.kappa[lane], at_lane(block.n, lane));
+      const auto impulse = impulse_of(block, lane);
+      work += impulse.dot(surface.mean);
+      change += impulse.dot(surface.change);
     }
   const auto* before = bodies_before_.data();
   for (const auto& body : world_.bodies) {
@@ -144,7 +149,7 @@ double Simulation<D>::work_of_boundaries() const
     if (body.free()) work -= (body.mass * (now - was) - body.load * world_.step) * (now + was) / 2;
     before += body.end - body.begin;
   }
-  return work;
+  return {work, std::max(change / 2, 0.0)};
 }
 
 template <int D>
@@ -152,11 +157,11 @@ double Simulation<D>::energy_gain(double held_back) const
 {
   const double by_gravity =
       world_.step * world_.gravity.dot(at_begin_.momentum + at_end_.momentum) / 2;
-  const double by_boundaries = work_of_boundaries();
+  const auto by_boundaries = work_of_boundaries();
   const double scale =
-      at_begin_.kinetic + at_end_.kinetic + std::abs(by_gravity) + std::abs(by_boundaries);
-  return at_end_.kinetic - at_begin_.kinetic - by_gravity - by_boundaries + held_back -
-         round_off(world_.solver.precision) * scale;
+      at_begin_.kinetic + at_end_.kinetic + std::abs(by_gravity) + std::abs(by_boundaries.work);
+  return at_end_.kinetic - at_begin_.kinetic - by_gravity - by_boundaries.work -
+         by_boundaries.push + held_back - round_off(world_.solver.precision) * scale;
 }
 
 template <int D>
@@ -165,12 +170,9 @@ double Simulation<D>::work_of_fall() const
   const auto falling = [&](double mass, double force) {
     return force * force * world_.step * world_.step / (8 * mass);
   };
-  double acceleration = world_.gravity.norm(), most = 0;
-  for (const auto& body : world_.bodies) {
-    acceleration += largest_acceleration(body);
+  double most = falling(mobile_mass_, mobile_mass_ * world_.gravity.norm());
+  for (const auto& body : world_.bodies)
     if (body.free()) most += falling(body.mass, body.load);
-  }
-  most += falling(mobile_mass_, mobile_mass_ * acceleration);
   return most;
 }
 

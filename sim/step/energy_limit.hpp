@@ -14,7 +14,7 @@
 ///
 /// with impulses p and relative velocities u, u' before and after the step, to
 ///
-///   W + T  <=  T_before + S + M (a h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
+///   W + T  <=  T_before + S + B + M (g h)^2/8 + sum of (load h)^2/(8 mass) over free bodies
 ///
 ///   T  energy that pairs gave up because they are slowed down before they touch; they get it back
 ///      in the next step, when they rebound (ImpulseSums::held_back); T_before: of the last step
@@ -22,12 +22,13 @@
 ///      stiffness N m/h^2, which an impulse fills with W_nn p_n^2/(2 N). S is at most the sum over the
 ///      impulses of the last step (DetectionSums::strain), and at most what is left of it: a step
 ///      lowers S by the energy that it returned, or raises it by the energy that it took
-///   a  gravity and the largest acceleration of a moving boundary
+///   B  max(0, sum of p . (V' - V)/2), V and V' velocities of a moving boundary's surface before and
+///      after the step
 ///
 /// The last two terms hold for exact solutions without rebounds, where p . u' <= 0: a grain of mass m
 /// whose contacts change its velocity by q adds m q . (v' - (g h + q)/2), and the sum of m q . v' is
-/// the sum of p . u'. The largest value of -m q . (g h + q)/2 is m (g h)^2/8. Relative to an
-/// accelerating boundary, gravity is as much larger.
+/// the sum of p . u'. The largest value of -m q . (g h + q)/2 is m (g h)^2/8. This holds for work
+/// against boundaries that move with V' during the whole step, which is W less p . (V' - V)/2.
 ///
 /// So over any number of undriven steps energy + T rises by at most S at their begin and these two
 /// terms per step.
@@ -51,6 +52,17 @@ MotionSums<D> motion_sums(const GrainState<D>& grains, int threads);
 template <int D>
 MotionSums<D> motion_sums(double duration, const GrainState<D>& grains,
                           std::vector<Position<D>>& later, int threads);
+
+/// Velocity of a point of a surface in a step, m/s: its mean, and its change.
+template <int D>
+struct SurfaceMotion {
+  Vector<D> mean = Vector<D>::Zero(), change = Vector<D>::Zero();
+};
+
+/// Work of moving boundaries on grains, with the energy that free bodies lost, and B, J.
+struct WorkOfBoundaries {
+  double work = 0, push = 0;
+};
 
 /// Largest x in [0, 1] for which a parabola with the values f(0) <= most, f(1/2), f(1) > most is at
 /// most `most` between 0 and x.

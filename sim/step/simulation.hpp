@@ -154,11 +154,10 @@ class Simulation {
   // Limit of the energy of a step (energy_limit.cpp). begin_budget() is called before gravity and
   // loads act, the others after the solve.
   void begin_budget();
-  /// Mean velocity in the step, m/s, of the surface of grain b of a moving boundary at the point that
-  /// lies along n, at a distance of `lever` radii; 0 of other grains. Along y, free bodies count as
-  /// at rest.
-  Vector<D> mean_velocity(std::size_t b, double lever, const Vector<D>& n) const;
-  double work_of_boundaries() const;  // J, on grains, and energy that free bodies lost
+  /// Motion in the step of the surface of grain b of a moving boundary at the point that lies along n,
+  /// at a distance of `lever` radii; 0 of other grains. Along y, free bodies count as at rest.
+  SurfaceMotion<D> surface_motion(std::size_t b, double lever, const Vector<D>& n) const;
+  WorkOfBoundaries work_of_boundaries() const;
   /// Left side of the limit, J, less the round-off. `held_back`: T. To be called when at_end_ is known.
   double energy_gain(double held_back) const;
   double work_of_fall() const;  // the last two terms of the limit, J
