@@ -198,13 +198,17 @@ def push_of_boundaries(run):
     return np.maximum(run.sum_of_contacts(np.where((run.j >= 0) & run.fixed[run.j], push, 0)), 0)
 
 
+def tolerated(run):
+    """Accepted error of the energies of a step, over their sum (round_off() of sim/step/energy_limit.cpp)."""
+    return 1e-6 if run.keys["precision"] == "mixed" else 1e-12
+
+
 def energy_of_contacts(run):
-    """Contacts do at most the work that free_work() allows, and give back at most what they held after the step before. Steps
-    with single-precision impulses may exceed this by 1e-6 of their energies (round_off() of sim/step/energy_limit.cpp)."""
+    """Contacts do at most the work that free_work() allows, and give back at most what they held after the step before."""
     total, boundary, size, digits = works(run)
-    if run.keys["precision"] == "mixed":
-        kinetic = sum(run.kinetic)
-        digits = digits + 1e-6 * (kinetic + np.append(0, kinetic[:-1]) + np.abs(work_of_gravity(run)) + np.abs(boundary))
+    kinetic = sum(run.kinetic)
+    energies = kinetic + np.append(0, kinetic[:-1]) + np.abs(work_of_gravity(run)) + np.abs(boundary)
+    digits = digits + tolerated(run) * energies
     held = np.append(0, (given_away(run) + elastic_energy(run))[:-1])
     # The step before is known if both steps were whole.
     known = run.follows & np.append(True, run.whole[:-1])

@@ -6,7 +6,7 @@ tolerance, a line `doubt` in its summary) excuses a violation, but for a rise of
 """
 import numpy as np
 
-from random_scenes.exact import (Finding, elastic_energy, free_work, given_away, moving, work_of_gravity, worst)
+from random_scenes.exact import (Finding, elastic_energy, free_work, given_away, moving, tolerated, work_of_gravity, worst)
 
 # Largest overlap that grseg-check accepts, over the smaller diameter (docs/studies/check.md).
 MOST_OVERLAP = 0.1
@@ -176,12 +176,10 @@ def undriven(run):
     allowed = (run.step - run.step[0]) * (free_work(run) * whole**2).max()
     held = given_away(run) + elastic_energy(run)
     gain = energy - allowed - np.minimum.accumulate(energy - allowed + held)
-    # A step tolerates round-off of its velocities (round_off() of sim/step/energy_limit.cpp). Between frames they may be twice
-    # as large as in frames.
-    digits = 1e-6 if run.keys["precision"] == "mixed" else 1e-12
+    # Between frames energies may be twice as large as in frames.
     moved = 2 * kinetic + np.abs(work_of_gravity(run))
-    tolerated = 2 * digits * moved.max() * (run.step[-1] - run.step[0]) + run.round_off * np.abs(energy).max()
-    yield worst("energy never rises undriven", gain / run.unit_of_energy, tolerated / run.unit_of_energy, run)
+    digits = 2 * tolerated(run) * moved.max() * (run.step[-1] - run.step[0]) + run.round_off * np.abs(energy).max()
+    yield worst("energy never rises undriven", gain / run.unit_of_energy, digits / run.unit_of_energy, run)
 
 
 def rest(run):
