@@ -364,6 +364,14 @@ FluxCoefficients flux_coefficients(const ClosureData& data)
   return {flux[0].value, flux[1].value, d / weight, d2 / weight};
 }
 
+Estimate estimate_from_flux(const ClosureData& data, const ClosureResampling& resampling,
+                            double value, const std::array<double, 2>& slopes)
+{
+  const auto flux = Regressions(data).on_both([](const ClosurePoint& p) { return p.flux; });
+  return Report(data, resampling)
+      .estimate(combined(value, {{slopes[0], &flux[0]}, {slopes[1], &flux[1]}}));
+}
+
 std::string closure_population(std::size_t runs)
 {
   return runs > 1

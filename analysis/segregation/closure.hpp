@@ -5,6 +5,7 @@
 #include "analysis/segregation/named_numbers.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -61,6 +62,10 @@ struct FluxCoefficients {
   double shear_d2 = no_number;  // mean shear rate x d^2, m^2/s
 };
 FluxCoefficients flux_coefficients(const ClosureData& data);
+
+/// A number with these derivatives by B/c and d/c, and the interval due to their errors.
+Estimate estimate_from_flux(const ClosureData& data, const ClosureResampling& resampling,
+                            double value, const std::array<double, 2>& slopes);
 
 /// The population of the intervals for this number of runs, as a sentence without its full stop.
 std::string closure_population(std::size_t runs);

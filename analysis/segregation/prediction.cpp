@@ -16,6 +16,7 @@ namespace grseg {
 namespace {
 
 constexpr std::size_t column_cells = 200;
+constexpr std::size_t by_closure = 0;  // index in prediction_laws
 constexpr const char* remedy = "a table of grseg-segregation has it";
 
 /// Properties of a bed that laws use.
@@ -48,10 +49,9 @@ TransportRates trewhela(const PredictedBed& bed, double height, double phi_large
 std::array<TransportLaw, prediction_laws.size()> laws_of(const PredictedBed& bed,
                                                          const FluxCoefficients& fitted)
 {
-  const TransportRates constant{fitted.B_over_c * bed.gravity, fitted.d_over_c};
   const double d = bed.diameter;
-  const TransportRates scaled{constant.S * bed.shear_rate * d / fitted.shear_d,
-                              constant.D * bed.shear_rate * d * d / fitted.shear_d2};
+  const TransportRates scaled{fitted.B_over_c * bed.gravity * bed.shear_rate * d / fitted.shear_d,
+                              fitted.d_over_c * bed.shear_rate * d * d / fitted.shear_d2};
   // Noise may make a fitted d negative, which no bed can have.
   const auto uniform = [](TransportRates rates) {
     rates.D = std::max(rates.D, 0.0);
@@ -60,7 +60,7 @@ std::array<TransportLaw, prediction_laws.size()> laws_of(const PredictedBed& bed
   const auto by_place = [&](bool intruder) {
     return [=](double height, double phi) { return trewhela(bed, height, phi, intruder); };
   };
-  return {uniform(scaled), uniform(constant), by_place(false), by_place(true), uniform({})};
+  return {uniform(scaled), by_place(false), by_place(true), uniform({})};
 }
 
 /// The windows of a table in order of time, with the layers that are not too loose, from the base
@@ -195,7 +195,8 @@ double predicted_height(const PredictedWindow& window, std::size_t law)
   return mean_height(window, [law](const PredictedLayer& layer) { return layer.predicted[law]; });
 }
 
-void add_law(NamedNumbers& numbers, const Prediction& run, std::size_t law)
+void add_law(NamedNumbers& numbers, const Prediction& run, std::size_t law,
+             const FromFlux& from_flux)
 {
   double weight = 0, squares = 0, of_heights = 0;
   for (std::size_t k = 1; k < run.windows.size(); ++k) {
@@ -206,13 +207,14 @@ void add_law(NamedNumbers& numbers, const Prediction& run, std::size_t law)
     }
     of_heights += std::pow(predicted_height(window, law) - measured_height(window), 2);
   }
-  const auto add = [&](const char* name, const char* unit, double value) {
+  const auto add = [&](const char* name, const char* unit, const Estimate& estimate) {
     numbers.numbers.emplace_back(
-        fmt::format("{}_of_{}@{}{}", name, prediction_laws[law], run.name, unit), Estimate{value});
+        fmt::format("{}_of_{}@{}{}", name, prediction_laws[law], run.name, unit), estimate);
   };
-  add("rms_phi_L", "", std::sqrt(squares / weight));
-  add("rms_y_L", "[m]", std::sqrt(of_heights / static_cast<double>(run.windows.size() - 1)));
-  add("y_L_last", "[m]", predicted_height(run.windows.back(), law));
+  add("rms_phi_L", "", {std::sqrt(squares / weight)});
+  add("rms_y_L", "[m]", {std::sqrt(of_heights / static_cast<double>(run.windows.size() - 1))});
+  const double last = predicted_height(run.windows.back(), law);
+  add("y_L_last", "[m]", law == by_closure ? from_flux(last, run.slopes) : Estimate{last});
 }
 
 /// Shear rates of the bed in the windows, 1/s.
@@ -245,12 +247,51 @@ void check(const FluxCoefficients& fitted)
         "a prediction needs; make them again with this version");
 }
 
+/// Predicts phi_L of all windows by one law, with a shear rate, 1/s, for each window.
+void advance(std::vector<PredictedWindow>& windows, std::size_t law, PredictedBed bed,
+             const std::vector<double>& shear_rates, const FluxCoefficients& fitted)
+{
+  const auto middle = [](const Span& span) { return (span.first + span.second) / 2; };
+  const auto cells = equal_shares();
+  TransportColumn column(cells_of(windows.front()), bed.height);
+  for (std::size_t n = 0; n < windows.size(); ++n) {
+    auto& window = windows[n];
+    const std::size_t last = n > 0 ? n - 1 : 0;
+    bed.shear_rate = (shear_rates[last] + shear_rates[n]) / 2;
+    column.advance(middle(window.span) - middle(windows[last].span), laws_of(bed, fitted)[law]);
+    const auto shares = shares_below(window);
+    for (std::size_t k = 0; k < window.layers.size(); ++k)
+      window.layers[k].predicted[law] =
+          mean_between(shares[k], shares[k + 1], cells, column.phi_large());
+  }
+}
+
+/// Prediction::slopes, from differences.
+std::array<double, 2> slopes_of(std::vector<PredictedWindow> windows, const PredictedBed& bed,
+                                const std::vector<double>& shear_rates,
+                                const FluxCoefficients& fitted)
+{
+  constexpr double part = 1e-3;  // of a coefficient
+  const auto slope = [&](double FluxCoefficients::*coefficient) {
+    const double difference = part * fitted.*coefficient;
+    std::array<double, 2> last{};
+    for (const std::size_t side : {0, 1}) {
+      auto changed = fitted;
+      changed.*coefficient += (side == 1 ? difference : -difference);
+      advance(windows, by_closure, bed, shear_rates, changed);
+      last[side] = predicted_height(windows.back(), by_closure);
+    }
+    return difference == 0 ? 0 : (last[1] - last[0]) / (2 * difference);
+  };
+  return {slope(&FluxCoefficients::B_over_c), slope(&FluxCoefficients::d_over_c)};
+}
+
 }  // namespace
 
 Prediction predict(const Table& table, const FluxCoefficients& fitted, const RowFilter& filter)
 {
   check(fitted);
-  Prediction prediction{table.name, windows_of(table, filter)};
+  Prediction prediction{table.name, windows_of(table, filter), {}};
   auto& windows = prediction.windows;
   if (windows.size() < 2)
     throw RunError(
@@ -258,22 +299,10 @@ Prediction predict(const Table& table, const FluxCoefficients& fitted, const Row
                     "begin with; choose other --begin, --end or --min-solid",
                     table.name, windows.size()));
   const auto shear_rates = shear_rates_in(table, windows);
-  auto bed = bed_of(table, windows.front(), solid_of(windows.front()));
-  const auto middle = [](const Span& span) { return (span.first + span.second) / 2; };
-  const auto cells = equal_shares();
-  for (std::size_t law = 0; law < prediction_laws.size(); ++law) {
-    TransportColumn column(cells_of(windows.front()), bed.height);
-    for (std::size_t n = 0; n < windows.size(); ++n) {
-      auto& window = windows[n];
-      const std::size_t last = n > 0 ? n - 1 : 0;
-      bed.shear_rate = (shear_rates[last] + shear_rates[n]) / 2;
-      column.advance(middle(window.span) - middle(windows[last].span), laws_of(bed, fitted)[law]);
-      const auto shares = shares_below(window);
-      for (std::size_t k = 0; k < window.layers.size(); ++k)
-        window.layers[k].predicted[law] =
-            mean_between(shares[k], shares[k + 1], cells, column.phi_large());
-    }
-  }
+  const auto bed = bed_of(table, windows.front(), solid_of(windows.front()));
+  for (std::size_t law = 0; law < prediction_laws.size(); ++law)
+    advance(windows, law, bed, shear_rates, fitted);
+  prediction.slopes = slopes_of(windows, bed, shear_rates, fitted);
   return prediction;
 }
 
@@ -292,14 +321,16 @@ void refuse_fitted_runs(const std::vector<Table>& predicted, const std::vector<T
             tables[k].name, tables[other].name));
 }
 
-void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predictions)
+void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predictions,
+                     const FromFlux& from_flux)
 {
   for (const auto& run : predictions) {
     numbers.numbers.emplace_back(fmt::format("y_L_first@{}[m]", run.name),
                                  Estimate{measured_height(run.windows.front())});
     numbers.numbers.emplace_back(fmt::format("y_L_last@{}[m]", run.name),
                                  Estimate{measured_height(run.windows.back())});
-    for (std::size_t law = 0; law < prediction_laws.size(); ++law) add_law(numbers, run, law);
+    for (std::size_t law = 0; law < prediction_laws.size(); ++law)
+      add_law(numbers, run, law, from_flux);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,11 @@ namespace grseg {
 ///
 ///   closure   S = (B/c) g cos(slope), D = d/c, times g' d and g' d^2 of the predicted bed over those
 ///             of the fitted beds; d of a bed is from its Phi_L
-///   constant  S = (B/c) g cos(slope), D = d/c
 ///   trewhela  S = 0.3744 g' d^2 ((R - 1) + 2.0957 phi_L (R - 1)^2)/(0.2712 d + P), D = 0.108 g' d^2,
 ///             with the local phi_L (Trewhela, Ancey & Gray 2021, J. Fluid Mech. 916, A55, spheres)
 ///   trewhela_intruder  as trewhela, but without the term with (R - 1)^2, as for a large grain alone
 ///   unchanged S = D = 0
-inline constexpr std::array<const char*, 5> prediction_laws{"closure", "constant", "trewhela",
+inline constexpr std::array<const char*, 4> prediction_laws{"closure", "trewhela",
                                                             "trewhela_intruder", "unchanged"};
 
 /// A layer in a window of a predicted run.
@@ -45,7 +45,12 @@ struct PredictedWindow {
 struct Prediction {
   std::string name;  // of the table
   std::vector<PredictedWindow> windows;
+  /// Derivatives of the closure's y_L in the last window by B/c, m/s, and by d/c, s/m.
+  std::array<double, 2> slopes{};
 };
+
+/// The estimate of a number with this value and these derivatives by B/c and d/c.
+using FromFlux = std::function<Estimate(double value, const std::array<double, 2>& slopes)>;
 
 /// Predicts all windows of a table of grseg-segregation from its first. phi_L, the solid volume, and
 /// its height at the median solid fraction come from the first window, taken at its middle; the
@@ -65,8 +70,10 @@ void refuse_fitted_runs(const std::vector<Table>& predicted, const std::vector<T
 ///   rms_phi_L_of_LAW  rms difference of predicted and measured phi_L, over the layers of all
 ///                     windows after the first, weighted with area or volume of the grains
 ///   rms_y_L_of_LAW    rms difference of the mean heights, over the same windows, m
-///   y_L_last_of_LAW   mean height in the last window, m
-void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predictions);
+///   y_L_last_of_LAW   mean height in the last window, m; of `closure` with the interval of
+///                     `from_flux`, which is due to the errors of B/c and d/c alone
+void add_predictions(NamedNumbers& numbers, const std::vector<Prediction>& predictions,
+                     const FromFlux& from_flux);
 
 /// Measured and predicted phi_L: columns run (number in the order of `predictions`), t0, t1, y0, y1,
 /// solid (fraction), phi_L, and phi_L_LAW for each law.

@@ -13,7 +13,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,11 @@ struct Settings {
   OutputOptions profiles;
   TableOptions output;
   bool json = false, quiet = false;
+
+  ClosureResampling resampling() const
+  {
+    return {static_cast<std::size_t>(bootstrap), static_cast<unsigned long>(seed)};
+  }
 };
 
 po::options_description options_into(Settings& s)
@@ -104,7 +111,9 @@ void predict_runs(const Settings& s, const std::vector<Table>& fitted, const Clo
   const auto coefficients = flux_coefficients(data);
   const auto predictions =
       listed(tables, [&](const Table& table) { return predict(table, coefficients, s.filter); });
-  add_predictions(summary, predictions);
+  add_predictions(summary, predictions, [&](double value, const std::array<double, 2>& slopes) {
+    return estimate_from_flux(data, s.resampling(), value, slopes);
+  });
   if (s.profiles.path.empty()) return;
   auto profiles = prediction_table(predictions);
   profiles.header = header;
@@ -137,8 +146,7 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
                                {"seed", fmt::format("{}", s.seed)}});
   add_all(header, s.filter.lines());
   header.emplace_back("interval", "95 %");
-  auto summary = closure_summary(
-      data, rules, {static_cast<std::size_t>(s.bootstrap), static_cast<unsigned long>(s.seed)});
+  auto summary = closure_summary(data, rules, s.resampling());
   if (!s.predict.empty()) predict_runs(s, tables, data, header, summary);
   write_numbers(summary, header, info, s.output, s.json, s.quiet);
 }

@@ -9,7 +9,7 @@ eval figure("prediction", 1200, 480, 12)
 # Rows of run n that begin at time t, and mean heights of the large grains by window of run n.
 profile(n, t) = sprintf("< awk -F '\\t' '!/^#/ && (!k++ || ($1 == %d && $2 == %g))' ", n, t).quoted(table)
 heights(n) = sprintf("< awk -F '\\t' '!/^#/ && $1 == %d && $2 < 150 {if ($2 != t) {if (s) print t, a/A, b/B, c/C; s = 1; t = $2; a = A = b = B = c = C = 0} ", n). \
-  "y = ($4 + $5)/2; a += $6*$7*y; A += $6*$7; b += $6*$8*y; B += $6*$8; c += $6*$10*y; C += $6*$10} END {print t, a/A, b/B, c/C}' ".quoted(table)
+  "y = ($4 + $5)/2; a += $6*$7*y; A += $6*$7; b += $6*$8*y; B += $6*$8; c += $6*$9*y; C += $6*$9} END {print t, a/A, b/B, c/C}' ".quoted(table)
 array times[4] = [10, 30, 60, 120]
 array colour[5] = ["#1f77b4", "#2ca02c", "#d62728", "#9467bd", "#8c564b"]
 set multiplot layout 1,2

@@ -260,5 +260,23 @@ TEST(SegregationClosure, RunsAreOnePopulationWhateverTheirMixtures)
   EXPECT_TRUE(closure_population(1).starts_with("windows: this very run"));
 }
 
+TEST(ClosureIntervals, ANumberThatFollowsTheFluxHasTheErrorsOfItsCoefficients)
+{
+  synthetic::Ar1 noise(0, 3);
+  const auto data = noisy({40, 40, 40, 40}, 0.3, noise);
+  const ClosureResampling resampling;
+  const auto summary = closure_summary(data, two_rules, resampling);
+  const auto b = number_of(summary, "B_over_c[s]"), d = number_of(summary, "d_over_c[m^2/s]");
+  const auto half = [](const Estimate& estimate) { return (estimate.high - estimate.low) / 2; };
+  const auto of_b = estimate_from_flux(data, resampling, 7, {2, 0});
+  EXPECT_EQ(of_b.value, 7);
+  EXPECT_NEAR(half(of_b) / half(b), 2, 1e-9);
+  EXPECT_NEAR(half(estimate_from_flux(data, resampling, 7, {0, 2})) / half(d), 2, 1e-9);
+  // Both grow together here (estimate_correlation), so that errors of their sum add up.
+  EXPECT_GT(number_of(summary, "estimate_correlation").value, 0);
+  EXPECT_GT(half(estimate_from_flux(data, resampling, 7, {1 / half(b), 1 / half(d)})),
+            std::sqrt(2));
+}
+
 }  // namespace
 }  // namespace grseg
