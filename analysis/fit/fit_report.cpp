@@ -92,6 +92,8 @@ Header header_of(const FitReport& report)
   for (const auto& line : report.history) lines.emplace_back("history", line);
   for (std::size_t m = 0; m < report.flows.size(); ++m)
     lines.emplace_back("flow", flow_line(report, m));
+  if (!report.other_names.empty())
+    lines.emplace_back("minus", fmt::format("{}", fmt::join(report.other_names, " ")));
   for (const auto& names : report.shared_runs)
     lines.emplace_back("one run", fmt::format("{}", fmt::join(names, " ")));
   for (const auto& [over, words] : estimands(report))
@@ -130,6 +132,7 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   add("neutral", {fit.neutral});
   add("B_of_thickness", {fit.of_thickness});
   add_measured("B_minus_size", fit.minus_size);
+  add_measured("B_minus_other", fit.minus_other);
   if (fit.size_exponent) add("size_exponent", *fit.size_exponent, fit.over);
   for (const auto& [name, place] : estimator_columns)
     if (report.with_paper && std::string(name).starts_with("paper_"))
@@ -270,6 +273,7 @@ std::string to_json(const FitReport& report)
                             {"Phi_L", report.flows[m].phi_large()},
                             {"weight_share", report.shares[m]},
                             {"tables", tables_of(report, report.flows[m])}});
+  if (!report.other_names.empty()) all["minus"] = report.other_names;
   if (!report.shared_runs.empty()) all["one_run"] = report.shared_runs;
   for (const auto& [over, words] : estimands(report))
     all["estimands"][word_of(over, populations)] = words;
@@ -338,6 +342,17 @@ std::string rules_text(const FitReport& report)
     lines.push_back({row_name(report, fit), b_text(report, fit.estimate(&Estimators::B)),
                      rounded(report, fit.share), used_by(report, fit)});
   return with_words_outside(lines);
+}
+
+/// B minus B of another reading of the same runs.
+std::string differences_text(const FitReport& report)
+{
+  if (report.other_names.empty()) return "";
+  std::vector<Line> lines{{"same windows", "B minus B of --minus [95 %]"}};
+  for (const auto& fit : report.rules)
+    if (std::isfinite(fit.minus_other.value))
+      lines.push_back({row_name(report, fit), b_text(report, fit.minus_other.estimate())});
+  return '\n' + aligned(lines, [](std::size_t c) { return c == 0; });
 }
 
 /// Coefficients of the fits of Staron & Phillips (2015): sigma^S/sigma^L = s phi_S/phi_L, and
@@ -449,6 +464,7 @@ std::string short_table(const FitReport& report)
       counted(report.number_of_windows, "window"), counted(report.number_of_runs, "run"),
       report.flows.size() > 1 ? fmt::format(" of {} flows", report.flows.size()) : "");
   text += rules_text(report);
+  text += differences_text(report);
   text += paper_text(report);
   text += pairs_text(report);
   text += line_text(report);

@@ -26,7 +26,7 @@ struct FitReport {
   SpeciesList species;         // species of the tables
   std::vector<Flow> flows;     // flows of the tables
   std::vector<double> shares;  // share of each flow in the weight of all samples in B
-  std::vector<std::string> table_names;
+  std::vector<std::string> table_names, other_names;  // other: of the tables of --minus
   std::vector<std::vector<std::string>>
       shared_runs;                            // for each run with several tables, their names
   std::vector<std::string> doubts_of_tables;  // warnings about the tables (data_doubts.hpp)
@@ -61,7 +61,8 @@ struct NumberRow {
 };
 
 /// All numbers, in the order of the table. Quantities of a rule: B over each known population,
-/// beginning with RuleFit::over; share, neutral, B_of_thickness, B_minus_size, size_exponent; if
+/// beginning with RuleFit::over; share, neutral, B_of_thickness, B_minus_size, B_minus_other,
+/// size_exponent; if
 /// with_paper: paper_s, paper_B, paper_k, paper_a; effective_windows,
 /// autocorrelation_time[windows].
 /// Quantities common to all rules ("-"): Phi_L, weight_share, runs, points (layers x windows),

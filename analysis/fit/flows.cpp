@@ -283,7 +283,7 @@ std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& g
   return flows;
 }
 
-FitData of_flow(const FitData& data, std::size_t flow)
+FitData of_windows(const FitData& data, const std::vector<bool>& keep)
 {
   FitData part{.quantity = data.quantity,
                .dimension = data.dimension,
@@ -291,16 +291,16 @@ FitData of_flow(const FitData& data, std::size_t flow)
                .species = data.species,
                .window = data.window,
                .count = data.count};
-  for (std::size_t run = 0; run < data.runs.size(); ++run)
-    if (data.flow_of(run) == flow) {
-      part.runs.push_back(data.runs[run]);
-      part.flows.push_back(flow);
-    }
-  const auto flow_of_window = data.flows_of_windows();
   std::vector<std::size_t> window_of;  // for each window of `data`, its index in `part`
-  window_of.reserve(flow_of_window.size());
   std::size_t own = 0;
-  for (const auto of : flow_of_window) window_of.push_back(of == flow ? own++ : own);
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    const auto before = own;
+    for (std::size_t k = 0; k < data.runs[run]; ++k)
+      window_of.push_back(keep[window_of.size()] ? own++ : own);
+    if (own == before) continue;
+    part.runs.push_back(own - before);
+    part.flows.push_back(data.flow_of(run));
+  }
   std::map<std::size_t, std::size_t> rows;
   const auto row_of = [&](std::size_t row) {
     const auto [entry, fresh] = rows.try_emplace(row, part.rows.size());
@@ -308,13 +308,20 @@ FitData of_flow(const FitData& data, std::size_t flow)
     return entry->second;
   };
   for (auto sample : data.samples) {
-    if (flow_of_window[sample.window] != flow) continue;
+    if (!keep[sample.window]) continue;
     sample.window = window_of[sample.window];
     sample.row = row_of(sample.row);
     for (auto& next : sample.beside) next.renumber(row_of);
     part.samples.push_back(sample);
   }
   return part;
+}
+
+FitData of_flow(const FitData& data, std::size_t flow)
+{
+  std::vector<bool> keep;
+  for (const auto of : data.flows_of_windows()) keep.push_back(of == flow);
+  return of_windows(data, keep);
 }
 
 std::vector<double> weight_shares(const FitData& data, std::size_t flows)

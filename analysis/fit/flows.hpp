@@ -49,6 +49,8 @@ std::string grouping_words(const std::string& grouping, const std::vector<Table>
 /// numbers do not add up to the number of tables.
 std::vector<Flow> find_flows(std::vector<FitTable>& tables, const std::string& grouping);
 
+/// The samples and rows of the windows to keep, without runs that have none of them.
+FitData of_windows(const FitData& data, const std::vector<bool>& keep);
 /// The samples and rows of one flow in `data`.
 FitData of_flow(const FitData& data, std::size_t flow);
 

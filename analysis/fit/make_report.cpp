@@ -3,6 +3,7 @@
 
 #include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_pairs.hpp"
+#include "analysis/fit/two_readings.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
@@ -92,6 +93,9 @@ po::options_description FitOptions::description()
   add("scan", text(scan, "p0:p1:dp"),
       "instead of B by rules, print B as function of the large grain's share p, from p0 to p1 in "
       "steps of dp");
+  add("minus", po::value(&minus)->multitoken()->value_name("FILES"),
+      "tables of the same runs read another way, such as with thinner layers: also print B minus "
+      "theirs, over the same windows; put this option last");
   add("over", word_option(&over, words_of(populations)), over_help().c_str());
   add("flows", text(flows, "N,N,...")->default_value("auto"),
       "number of tables of each flow, in the order of the tables; auto: tables are of one flow if "
@@ -263,6 +267,15 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
   report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
                            s.exponent || report.names_pairs());
+  if (!s.minus.empty()) {
+    const auto others = listed(s.minus, [](const auto& path) { return Table::read(path); });
+    require_same_runs(tables, others);
+    auto read_otherwise = read_fit_tables(others, report.quantity, rules);
+    find_flows(read_otherwise, s.flows);
+    add_differences(report.rules, {all, report.quantity, s.filters},
+                    {read_otherwise, report.quantity, s.filters}, settings, resampling);
+    for (const auto& table : others) report.other_names.push_back(table.name);
+  }
   if (!s.scan.empty())
     report.scan = scan(info.name, data, parse_scan(s.scan), settings, bootstrap, s.quiet);
   report.with_paper = s.fit == "paper";

@@ -44,22 +44,6 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
   }
 }
 
-/// B of the fit minus B by size; `size_points` are the points under the rule size.
-Measured minus_size(const RuleFit& fit, const FitData& data, const WindowSums& windows,
-                    const std::vector<FitPoint>& size_points, const Bootstrap& bootstrap)
-{
-  const double difference = fit.value.B - estimators_of(size_points).B;
-  if (bootstrap.count() == 0) return {difference};
-  const auto by_size = window_sums(size_points, bootstrap.runs());
-  constexpr auto b = &Estimators::B;
-  const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
-    return windows.sampled(times).col(column_of(b)) - by_size.sampled(times).col(column_of(b));
-  };
-  return {difference, error_over(fit.over, bootstrap, fit.dependence, sampled,
-                                 RunErrors(data, windows.weight()),
-                                 influence_on(b, windows) - influence_on(b, by_size))};
-}
-
 /// Degrees of freedom of the differences between flows that the regression on composition
 /// (least_squares.hpp) removed from the noise.
 double degrees_taken_by_composition(const FitData& data)
@@ -197,12 +181,29 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   add_doubt(fit, doubt_of_thickness(fit, settings));
   if (data.quantity == Quantity::kinetic) return fit;
   fit.minus_size =
-      minus_size(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+      minus(fit, data, fit_points(data, PartitionRule{}, settings), settings, bootstrap);
   if (data.species.size() > 2) return fit;
   fit.share = share_of_large(data, points, settings);
   fit.neutral = neutral_mean(points, rule);
   if (!common) fit.line = line_over_share(data, settings, bootstrap, fit.over);
   return fit;
+}
+
+Measured minus(const RuleFit& fit, const FitData& data, const std::vector<FitPoint>& others,
+               const FitSettings& settings, const Bootstrap& bootstrap)
+{
+  const auto points = fit_points(data, fit.rule, settings);
+  const double difference = estimators_of(points).B - estimators_of(others).B;
+  if (bootstrap.count() == 0) return {difference};
+  constexpr auto b = &Estimators::B;
+  const auto windows = window_sums(points, data.runs);
+  const auto of_others = window_sums(others, data.runs);
+  const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
+    return windows.sampled(times).col(column_of(b)) - of_others.sampled(times).col(column_of(b));
+  };
+  return {difference, error_over(fit.over, bootstrap, fit.dependence, sampled,
+                                 RunErrors(data, windows.weight()),
+                                 influence_on(b, windows) - influence_on(b, of_others))};
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grseg {
 
@@ -48,8 +49,9 @@ struct RuleFit {
   double neutral = no_number;       // B of contacts that ignore grain size (partition_rule.hpp)
   double of_thickness = no_number;  // B of the layers' means minus B (Thickness)
   Measured minus_size = {};         // B minus B by size, from the same samples
-  Dependence dependence;            // dependence of the windows in B (confidence.hpp)
-  std::string doubt;                // warnings about the intervals, usually empty
+  Measured minus_other = {};  // B minus B of another reading of the same runs (two_readings.hpp)
+  Dependence dependence;      // dependence of the windows in B (confidence.hpp)
+  std::string doubt;          // warnings about the intervals, usually empty
   SpeciesPair pair = {};
   std::optional<Estimate> size_exponent = {};  // exponent over all pairs (fit_pairs.hpp)
 };
@@ -72,6 +74,11 @@ void add_doubt(RuleFit& fit, const std::string& doubt);
 /// this rule. Intervals over equal or random flows are added by fit_flows (fit_pairs.hpp).
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
+
+/// B of `data` under the fit's rule minus B of `others`, points in the same windows: from the same
+/// samples, over the population of the fit.
+Measured minus(const RuleFit& fit, const FitData& data, const std::vector<FitPoint>& others,
+               const FitSettings& settings, const Bootstrap& bootstrap);
 
 /// p* and dB/dp, for contact stress and two species; otherwise NaN. Errors are over the population
 /// `over`, with the dependence of windows at p*.

@@ -30,6 +30,7 @@ constexpr ToolInfo info{
     "  grseg-fit phi*/*.tsv                             B of each flow, then of all\n"
     "  grseg-fit phi*/*.tsv --over equal-flows          one B, with equal weight for each flow\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B as function of the large grain's share\n"
+    "  grseg-fit thick.tsv --minus thin.tsv             how much the thickness of layers moves B\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
     "  grseg-stress run.h5 | grseg-fit - --json         through a pipe, without a file\n"
     "\nLarge grains bear the share psi_L = phi_L (1 + B phi_S) of the stress, where phi_L and phi_S are\n"

@@ -48,6 +48,8 @@ MADE = {
                "until [ -e run.chk ]; do sleep 0.1; done; kill -INT $!; ! wait $!",
     "sums.tsv": SUMS.format("run.h5", "sums.tsv"),
     "a.tsv": SUMS.format("a.h5", "a.tsv"),
+    "thick.tsv": SUMS.format("a.h5", "thick.tsv") + " --layer 4dS",
+    "thin.tsv": SUMS.format("a.h5", "thin.tsv") + " --layer 2dS",
     "b.tsv": SUMS.format("b.h5", "b.tsv"),
     "seed1.tsv": SUMS.format("a.h5", "seed1.tsv"),
     "seed2.tsv": SUMS.format("b.h5", "seed2.tsv"),
