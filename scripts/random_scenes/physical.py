@@ -109,20 +109,26 @@ def rebounds(run):
     With impulses p and relative velocities u before and u' after a step, contacts do the work p.(u + u')/2. In an
     exact solution p_n (u'_n - rebound) = 0, rebound <= e times the approach, and p_t u'_t <= 0. Hence
     sum p_n (u'_n - e approach) + p_t u'_t <= 0 in each step, for any friction and e (docs/studies/accuracy.md).
-    A positive value of this sum over any span of steps is an error of the solver. Its unit is the energy that lifts all
-    grains by d_S plus the largest kinetic energy; 0.05 of the work of boundaries within the span is tolerated."""
+    A positive value of this sum over a span of steps is what contacts held before it as soft springs, or an error of the
+    solver. Its unit is the energy that lifts all grains by d_S plus the largest kinetic energy; 0.05 of the work of
+    boundaries within the span is tolerated."""
     excess = run.sum_of_contacts(run.part[run.frame_of] * (
         run.normal_force * (run.separation(run.velocity) - run.number("restitution") * approaches(run))
         + np.einsum("ca,ca->c", run.tangential_force, run.sliding(run.velocity, run.spin))))
     excess -= MOST_CREATED * np.abs(run.observables["work_of_boundaries"])
     # The approach before the previous step is known if both steps were whole.
     known = run.follows & np.append(True, run.whole[:-1])
+    held = elastic_energy(run)
     total = largest = 0.0
-    place = 0
+    least, place = held[0], 0
     for k in range(run.frames):
-        total = max(0.0, total + excess[k]) if known[k] else 0.0
-        if total > largest:
-            largest, place = total, k
+        if not known[k]:
+            total, least = 0.0, held[k]
+            continue
+        total += excess[k]
+        if total - least > largest:
+            largest, place = total - least, k
+        least = min(least, total + held[k])
     unit = run.unit_of_energy + kinetic_energy(run).max()
     yield Finding("rebounds", float(largest / unit), MOST_CREATED, f"until t = {run.time[place]:.6g} s")
 
