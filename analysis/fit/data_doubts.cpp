@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -157,6 +160,75 @@ std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
       "{} in the first tenth of the time than in the last half; in a steady flow such a difference "
       "has a probability below 5 % (Geweke's test); {}",
       differs, remedy);
+}
+
+namespace {
+
+/// Noise of the windows' excess: its difference from a B that changes linearly in each run.
+Eigen::VectorXd noise_about_lines(const Eigen::VectorXd& excess, const Eigen::VectorXd& weight,
+                                  const RunLengths& runs)
+{
+  Eigen::VectorXd noise = excess;
+  Eigen::Index begin = 0;
+  for (const auto length : runs) {
+    const auto count = index(length);
+    const auto of_run = weight.segment(begin, count);
+    Eigen::MatrixX2d line(count, 2);
+    line << of_run, of_run.cwiseProduct(Eigen::VectorXd::LinSpaced(count, -1, 1));
+    noise.segment(begin, count) -=
+        line * line.colPivHouseholderQr().solve(excess.segment(begin, count));
+    begin += count;
+  }
+  return noise;
+}
+
+/// Sum of `series` over the first and over the last third of each run's windows.
+std::array<double, 2> sums_of_thirds(const Eigen::VectorXd& series, const RunLengths& runs)
+{
+  std::array<double, 2> sums{};
+  Eigen::Index end = 0;
+  for (const auto length : runs) {
+    const auto third = index(length) / 3;
+    sums[0] += series.segment(end, third).sum();
+    end += index(length);
+    sums[1] += series.segment(end - third, third).sum();
+  }
+  return sums;
+}
+
+}  // namespace
+
+std::optional<ChangeOfB> change_of_b(const WindowSums& windows, const RunLengths& runs)
+{
+  const auto noise = noise_about_lines(windows.excess(), windows.weight(), runs);
+  const double time = autocorrelation_time(noise, runs);
+  const double independent = static_cast<double>(noise.size()) / time;
+  const double degrees = independent - 2 * static_cast<double>(runs.size());
+  if (!(degrees >= fewest_independent)) return {};
+  const double variance = noise.squaredNorm() / static_cast<double>(noise.size()) * independent /
+                          degrees * time;  // of a sum over windows, per window
+  const auto above = sums_of_thirds(windows.excess(), runs);
+  const auto below = sums_of_thirds(windows.weight(), runs);
+  const auto count = sums_of_thirds(Eigen::VectorXd::Ones(noise.size()), runs);
+  const double first = above[0] / below[0], last = above[1] / below[1];
+  const double error =
+      std::sqrt(variance * (count[0] / (below[0] * below[0]) + count[1] / (below[1] * below[1])));
+  const double t = std::abs(first - last) / error;
+  if (!std::isfinite(t)) return {};
+  return ChangeOfB{first, last, 2 * gsl_cdf_tdist_Q(t, degrees)};
+}
+
+std::string doubt_of_change(const FitData& data, const PartitionRule& rule,
+                            const FitSettings& settings)
+{
+  if (!rule.adds_up()) return {};
+  const auto found =
+      change_of_b(window_sums(fit_points(data, rule, settings), data.runs), data.runs);
+  if (!found || !(found->chance < rarely)) return {};
+  return fmt::format(
+      "B {} from {:.3f} in the first third of the time to {:.3f} in the last: this flow has no "
+      "single B, and a longer run has another; the intervals are over these times alone",
+      found->first > found->last ? "falls" : "rises", found->first, found->last);
 }
 
 }  // namespace grseg

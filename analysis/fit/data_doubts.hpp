@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/fit/estimators.hpp"
 #include "analysis/fit/fit_data.hpp"
 
 #include <Eigen/Core>
@@ -37,5 +38,21 @@ std::optional<StartOfFlow> start_of_flow(const Eigen::VectorXd& series, const Ru
 /// that change is not a start.
 std::string doubt_of_start(const FitData& data, const PartitionRule& rule,
                            const FitSettings& settings);
+
+/// B over the first and over the last third of the windows of all runs.
+struct ChangeOfB {
+  double first = 0, last = 0;
+  double chance = 1;  // probability of a difference at least this large if B does not change
+};
+
+/// Compares the two by Student's t. Variance, autocorrelation time and degrees of freedom come from
+/// the windows of all runs about a straight line in each run, so that a drift does not count as
+/// noise. Returns nothing if this leaves fewer than two independent windows.
+std::optional<ChangeOfB> change_of_b(const WindowSums& windows, const RunLengths& runs);
+
+/// Warning that B changes in time, as while the species separate; usually empty. Unlike
+/// doubt_of_start(), the part that the composition of the layers explains counts, too.
+std::string doubt_of_change(const FitData& data, const PartitionRule& rule,
+                            const FitSettings& settings);
 
 }  // namespace grseg

@@ -72,8 +72,12 @@ std::vector<std::pair<Population, std::string>> estimands(const FitReport& repor
   if (report.scan) used = {report.scan->fits.front().over};
   const auto flows = static_cast<std::size_t>(
       std::ranges::count_if(report.shares, [](double share) { return share > 0; }));
-  return listed(used,
-                [&](Population over) { return std::pair(over, estimand_words(over, flows)); });
+  return listed(used, [&](Population over) {
+    return std::pair(over, over == Population::windows && report.changes
+                               ? "B of these runs over these times, in which it changes; from the "
+                                 "scatter of windows inside runs"
+                               : estimand_words(over, flows));
+  });
 }
 
 /// Header line of flow m: "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv".

@@ -30,6 +30,7 @@ struct FitReport {
   std::vector<std::vector<std::string>>
       shared_runs;                            // for each run with several tables, their names
   std::vector<std::string> doubts_of_tables;  // warnings about the tables (data_doubts.hpp)
+  bool changes = false;                       // B changes in time (doubt_of_change)
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
   bool with_paper = false;  // true: also print the fits of Staron & Phillips (estimators.hpp)

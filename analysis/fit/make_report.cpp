@@ -297,6 +297,10 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
       report.doubts_of_tables.push_back(std::move(doubt));
   if (const auto doubt = doubt_of_start(data, rules.front(), settings); !doubt.empty())
     report.doubts_of_tables.push_back(doubt);
+  if (const auto doubt = doubt_of_change(data, rules.front(), settings); !doubt.empty()) {
+    report.changes = true;
+    report.doubts_of_tables.push_back(doubt);
+  }
   report.history = header_values(tables, "history");
   return report;
 }

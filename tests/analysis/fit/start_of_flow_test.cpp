@@ -82,5 +82,57 @@ TEST(StartOfFlow, IsSeenInTheShearStressOfAFlowThatGathersSpeed)
   EXPECT_NE(doubt().find("--begin 5 leaves the start out"), std::string::npos) << doubt();
 }
 
+/// Sums of windows of weight 1 with these B.
+WindowSums sums_of(const Eigen::VectorXd& b)
+{
+  WindowSums windows;
+  windows.sums = windows.noise = Eigen::MatrixXd::Zero(b.size(), WindowSums::number_of_sums);
+  windows.sums.col(WindowSums::fD) = b;
+  windows.sums.col(WindowSums::fQ).setOnes();
+  return windows;
+}
+
+// B is 1 above and below a line that falls from 3 to -3. The two thirds differ by twice 20/29 of 3,
+// and the variance of a window about its line is 30/28 (thirty windows less two of the line).
+TEST(ChangeOfB, IsTheDifferenceOfThirdsByStudentsT)
+{
+  Eigen::VectorXd series = Eigen::VectorXd::LinSpaced(30, 3, -3);
+  for (Eigen::Index k = 0; k < 30; ++k) series[k] += k % 4 == 0 || k % 4 == 3 ? 1 : -1;
+  const auto found = change_of_b(sums_of(series), {30});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->first - found->last, 2 * 3 * 20. / 29, 0.01);
+  const double t = (found->first - found->last) / std::sqrt(30. / 28 * 2 / 10);
+  EXPECT_NEAR(found->chance / (2 * gsl_cdf_tdist_Q(t, 28)), 1, 0.2);
+}
+
+TEST(ChangeOfB, ShowsInASteadySeriesAsOftenAsItSays)
+{
+  constexpr int trials = 1000;
+  const double most = 0.025 + 3.5 * std::sqrt(0.025 * 0.975 / trials);
+  for (const auto& runs : {RunLengths{120}, RunLengths{48, 48}}) {
+    synthetic::Ar1 noise(0.5);
+    int alarms = 0;
+    for (int k = 0; k < trials; ++k) {
+      const auto found = change_of_b(sums_of(noise.series(runs, 0)), runs);
+      alarms += found && found->chance < 0.025;
+    }
+    EXPECT_LT(alarms, most * trials);
+    EXPECT_GT(alarms, 0);
+  }
+}
+
+// A trend of four standard deviations of a window over the run is seen in nearly every trial.
+TEST(ChangeOfB, IsSeenWhereBDrifts)
+{
+  synthetic::Ar1 noise(0.5);
+  int seen = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Eigen::VectorXd b = noise.series(120) + Eigen::VectorXd::LinSpaced(120, 4, 0);
+    const auto found = change_of_b(sums_of(b), {120});
+    seen += found && found->chance < 0.025;
+  }
+  EXPECT_GT(seen, 190);
+}
+
 }  // namespace
 }  // namespace grseg
