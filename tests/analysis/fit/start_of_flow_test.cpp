@@ -48,22 +48,28 @@ TEST(StartOfFlow, IsNotFoundInFewWindows)
   EXPECT_FALSE(start_of_flow(Eigen::VectorXd::LinSpaced(40, 0, 1), {40}));  // correlated
 }
 
-// In a steady series a start is found in 2.5 % of the trials, also for correlated windows and several
-// runs, up to 3.5 standard deviations of a share of so many trials.
-TEST(StartOfFlow, ShowsInASteadySeriesAsOftenAsItSays)
+/// Checks that chance_of(series, runs) is below 2.5 % in at most 2.5 % of steady series, also for
+/// correlated windows and several runs, up to 3.5 standard deviations of a share of so many trials.
+template <class Chance>
+void expect_few_alarms(const Chance& chance_of)
 {
   constexpr int trials = 1000;
   const double most = 0.025 + 3.5 * std::sqrt(0.025 * 0.975 / trials);
   for (const auto& runs : {RunLengths{120}, RunLengths{48, 48}}) {
     synthetic::Ar1 noise(0.5);
     int alarms = 0;
-    for (int k = 0; k < trials; ++k) {
-      const auto found = start_of_flow(noise.series(runs, 0), runs);
-      alarms += found && found->chance < 0.025;
-    }
+    for (int k = 0; k < trials; ++k) alarms += chance_of(noise.series(runs, 0), runs) < 0.025;
     EXPECT_LT(alarms, most * trials);
     EXPECT_GT(alarms, 0);
   }
+}
+
+TEST(StartOfFlow, ShowsInASteadySeriesAsOftenAsItSays)
+{
+  expect_few_alarms([](const Eigen::VectorXd& series, const RunLengths& runs) {
+    const auto found = start_of_flow(series, runs);
+    return found ? found->chance : 1;
+  });
 }
 
 // Contacts carry no shear stress in the first 4 of 40 windows, as if grains began to move.
@@ -107,18 +113,10 @@ TEST(ChangeOfB, IsTheDifferenceOfThirdsByStudentsT)
 
 TEST(ChangeOfB, ShowsInASteadySeriesAsOftenAsItSays)
 {
-  constexpr int trials = 1000;
-  const double most = 0.025 + 3.5 * std::sqrt(0.025 * 0.975 / trials);
-  for (const auto& runs : {RunLengths{120}, RunLengths{48, 48}}) {
-    synthetic::Ar1 noise(0.5);
-    int alarms = 0;
-    for (int k = 0; k < trials; ++k) {
-      const auto found = change_of_b(sums_of(noise.series(runs, 0)), runs);
-      alarms += found && found->chance < 0.025;
-    }
-    EXPECT_LT(alarms, most * trials);
-    EXPECT_GT(alarms, 0);
-  }
+  expect_few_alarms([](const Eigen::VectorXd& series, const RunLengths& runs) {
+    const auto found = change_of_b(sums_of(series), runs);
+    return found ? found->chance : 1;
+  });
 }
 
 // A trend of four standard deviations of a window over the run is seen in nearly every trial.
