@@ -352,7 +352,7 @@ std::string rules_text(const FitReport& report)
 std::string differences_text(const FitReport& report)
 {
   if (report.other_names.empty()) return "";
-  std::vector<Line> lines{{"same windows", "B minus B of --minus [95 %]"}};
+  std::vector<Line> lines{{"same windows", "B minus B of the other tables [95 %]"}};
   for (const auto& fit : report.rules)
     if (std::isfinite(fit.minus_other.value))
       lines.push_back({row_name(report, fit), b_text(report, fit.minus_other.estimate())});
