@@ -128,6 +128,8 @@ void FitOptions::check(const po::variables_map& values)
   if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
   if (!scan.empty()) parse_scan(scan);
+  if (!scan.empty() && !minus.empty())
+    throw UsageError("--minus compares B by rules; leave out --scan, or --minus");
   if (quantity == "kinetic")
     for (const char* option : {"partition", "scan", "base-part"})
       if (values.contains(option) && !values[option].defaulted())
