@@ -25,6 +25,9 @@ constexpr double usual_solid_fraction = 0.81, usual_of_spheres = 0.61;
 // attempts cost little: they go on until so many grains have been deposited.
 constexpr int most_attempts = 20;
 constexpr std::size_t most_deposited = 10000;
+// Number of beds that are too high though all their grains are the --large-grains asked for. No
+// further attempt has fewer grains.
+constexpr int most_too_high = 5;
 constexpr double most_growth = 2;  // of the volume, from one attempt to the next
 
 /// Grain at its place above the base, before it falls.
@@ -431,8 +434,9 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
   // Not seeded again in each attempt: the height of a shallow bed varies by more than 2 %, so each
   // attempt needs other random numbers.
   RandomNumbers random(scene.seed);
-  int attempts = 0;
-  for (std::size_t deposited = 0; attempts < most_attempts || deposited < most_deposited;
+  int attempts = 0, too_high = 0;
+  for (std::size_t deposited = 0;
+       (attempts < most_attempts || deposited < most_deposited) && too_high < most_too_high;
        ++attempts) {
     auto packing = loose_packing(scene, volume, hooks.layered, random);
     deposited += packing.grains.size();
@@ -450,6 +454,7 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
       simulation.set_clock(0);
       return simulation;
     }
+    too_high += scene.large_grains && height > scene.depth && numbers_of(scene, volume).small == 0;
     volume *=
         height > 0 ? std::clamp(scene.depth / height, 1 / most_growth, most_growth) : most_growth;
   }

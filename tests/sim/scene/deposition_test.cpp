@@ -309,6 +309,20 @@ TEST(Deposition, MakesAColumnOfAFewGrainsWithAnySeed)
   }
 }
 
+// Forty large discs in a cell three wide are more than ten diameters high, and none may be left out.
+TEST(Deposition, OfLargeGrainsAloneThatAreTooHighGivesUpEarly)
+{
+  const auto scene = scene_from({"--geometry", "column", "--lateral", "walls", "--base", "wall",
+                                 "--column-width", "3dL", "--length", "6dL", "--depth", "8dS",
+                                 "--large-grains", "40", "--accuracy", "draft"});
+  try {
+    deposit<2>(scene);
+    FAIL() << "a bed";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("in 5 attempts"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Deposition, WithoutGrainsIsRefused)
 {
   EXPECT_THROW(deposit<2>(scene_from({"--size-ratio", "100", "--phi-large", "1", "--depth", "1dS",
