@@ -63,8 +63,7 @@ struct NumberRow {
 
 /// All numbers, in the order of the table. Quantities of a rule: B over each known population,
 /// beginning with RuleFit::over; share, neutral, B_of_thickness, B_minus_size, B_minus_other,
-/// size_exponent; if
-/// with_paper: paper_s, paper_B, paper_k, paper_a; effective_windows,
+/// size_exponent; if with_paper: paper_s, paper_B, paper_k, paper_a; effective_windows,
 /// autocorrelation_time[windows].
 /// Quantities common to all rules ("-"): Phi_L, weight_share, runs, points (layers x windows),
 /// p_zero and dB_dp.

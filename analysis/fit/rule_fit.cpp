@@ -181,7 +181,7 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   add_doubt(fit, doubt_of_thickness(fit, settings));
   if (data.quantity == Quantity::kinetic) return fit;
   fit.minus_size =
-      minus(fit, data, fit_points(data, PartitionRule{}, settings), settings, bootstrap);
+      minus(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
   if (data.species.size() > 2) return fit;
   fit.share = share_of_large(data, points, settings);
   fit.neutral = neutral_mean(points, rule);
@@ -189,14 +189,12 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   return fit;
 }
 
-Measured minus(const RuleFit& fit, const FitData& data, const std::vector<FitPoint>& others,
-               const FitSettings& settings, const Bootstrap& bootstrap)
+Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& windows,
+               const std::vector<FitPoint>& others, const Bootstrap& bootstrap)
 {
-  const auto points = fit_points(data, fit.rule, settings);
-  const double difference = estimators_of(points).B - estimators_of(others).B;
+  const double difference = fit.value.B - estimators_of(others).B;
   if (bootstrap.count() == 0) return {difference};
   constexpr auto b = &Estimators::B;
-  const auto windows = window_sums(points, data.runs);
   const auto of_others = window_sums(others, data.runs);
   const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
     return windows.sampled(times).col(column_of(b)) - of_others.sampled(times).col(column_of(b));

@@ -75,10 +75,10 @@ void add_doubt(RuleFit& fit, const std::string& doubt);
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
                  const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
 
-/// B of `data` under the fit's rule minus B of `others`, points in the same windows: from the same
-/// samples, over the population of the fit.
-Measured minus(const RuleFit& fit, const FitData& data, const std::vector<FitPoint>& others,
-               const FitSettings& settings, const Bootstrap& bootstrap);
+/// B of the fit minus B of `others`, points in the same windows: from the same samples, over the
+/// population of the fit. `windows` are sums of the fit's own points.
+Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& windows,
+               const std::vector<FitPoint>& others, const Bootstrap& bootstrap);
 
 /// p* and dB/dp, for contact stress and two species; otherwise NaN. Errors are over the population
 /// `over`, with the dependence of windows at p*.

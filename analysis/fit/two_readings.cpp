@@ -71,9 +71,12 @@ void add_differences(std::vector<RuleFit>& fits, const FitSource& source, const 
     const auto all = data_of(fit, source), all_others = data_of(fit, other);
     const auto data = in_common(all, all_others);
     const auto others = fit_points(in_common(all_others, all), fit.rule, settings);
+    const auto points = fit_points(data, fit.rule, settings);
+    const auto windows = window_sums(points, data.runs);
     auto of_common = fit;
-    of_common.dependence = dependence(data, fit.rule, settings);
-    fit.minus_other = minus(of_common, data, others, settings,
+    of_common.value = estimators_of(points);
+    of_common.dependence = dependence(windows, data.runs, fit.rule.adds_up());
+    fit.minus_other = minus(of_common, data, windows, others,
                             Bootstrap(data.runs, resampling.samples, resampling.seed));
   }
 }
