@@ -3,6 +3,7 @@
 
 #include "formats/cli/words.hpp"
 #include "formats/core/version.hpp"
+#include "sim/scene/deposition.hpp"
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
 #include "sim/solver/sweep.hpp"
@@ -97,6 +98,17 @@ std::string missed_in_words(const StepTotals& t, const Scene& scene, const Grain
   return fmt::format(
       "{}contacts added at most {} of energy, overlaps just after were up to {:.1e} d_S", force,
       energy, t.missed_overlap / scene.small_diameter);
+}
+
+/// Remark if the bed is not as high as the scene says, because attempts at it were slow (deposit()).
+std::string height_in_words(double height, const Scene& scene)
+{
+  const double off = height / scene.depth - 1;
+  if (!scene.geometry->checks_height || std::abs(off) <= depth_tolerance) return {};
+  return line("remark",
+              fmt::format("the bed is {:.2g} % {} than the depth asked for: an attempt at another "
+                          "one takes long, since its grains differ greatly",
+                          100 * std::abs(off), off > 0 ? "higher" : "lower"));
 }
 
 /// Reasons to doubt the run and remarks, one per line, with remedies.
@@ -248,7 +260,7 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
   text += line("stiffness", stiffness_in_words(s.stiffness));
   const auto left_out = effects_left_out(scene);
   if (!left_out.empty()) text += line("left out", left_out);
-  return text + doubts(s.totals, scene, grains);
+  return text + height_in_words(s.deposited_height, scene) + doubts(s.totals, scene, grains);
 }
 
 std::string next_steps(const std::string& output)

@@ -131,7 +131,7 @@ std::vector<SceneKey> bed_keys()
     {"geometry", "bed", choice(&Scene::geometry, geometry_words()), bed, yes,
      geometry_help()},
     {"depth", "60dS", length(&Scene::depth, "1dS", "1e6dS"), bed, no,
-     "height of the deposited bed, within 2 %", when.no_drum},
+     "height of the deposited bed, within 2 % (10 % where attempts are slow)", when.no_drum},
     {"length", "35dL", length(&Scene::length, "4dL", "1e6dL"), bed, no,
      "length of the cell along x; a drum has its diameter instead", when.no_drum},
     {"dimension", "2", choice(&Scene::dimension, Words<int>{{"2", 2}, {"3", 3}}), bed, no,

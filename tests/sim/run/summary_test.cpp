@@ -8,11 +8,12 @@
 namespace grseg {
 namespace {
 
-std::string text_of(const StepTotals& totals, const Scene& scene, double end = 0)
+std::string text_of(const StepTotals& totals, const Scene& scene, double end = 0, double height = 0)
 {
   RunSummary summary;
   summary.totals = totals;
   summary.end = end;
+  summary.deposited_height = height > 0 ? height : scene.depth;
   return to_text(summary, scene, {});
 }
 
@@ -25,6 +26,15 @@ TEST(Summary, TellsTheSlopeAtTheEndOfARunThatTurns)
 {
   const auto scene = small_chute::scene({"--slope", "20", "--slope-rate", "0.5"});
   EXPECT_TRUE(says(text_of({}, scene, 4), "22 at t = 4 s"));
+}
+
+TEST(Summary, SaysHowFarABedIsFromItsDepth)
+{
+  const auto scene = small_chute::scene();
+  EXPECT_FALSE(says(text_of({}, scene, 1, 1.019 * scene.depth), "remark"));
+  EXPECT_TRUE(says(text_of({}, scene, 1, 1.05 * scene.depth),
+                   "remark     the bed is 5 % higher than the depth asked for"));
+  EXPECT_TRUE(says(text_of({}, scene, 1, 0.95 * scene.depth), "is 5 % lower"));
 }
 
 TEST(Summary, DoubtsOneDeepOverlapAmongManyShallowOnes)

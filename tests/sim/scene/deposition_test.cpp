@@ -309,6 +309,26 @@ TEST(Deposition, MakesAColumnOfAFewGrainsWithAnySeed)
   }
 }
 
+// The heights of beds of a dozen discs vary by ten per cent. With 4000 sweeps a step, attempts are
+// slow, and after three million sweeps one bed within ten per cent is enough.
+TEST(Deposition, WhereAttemptsAreSlowTakesTheClosestBed)
+{
+  const auto scene =
+      scene_from({"--geometry",     "column", "--lateral",  "walls", "--base",       "wall",
+                  "--column-width", "3dL",    "--length",   "6dL",   "--depth",      "4dS",
+                  "--size-ratio",   "1",      "--spread",   "0.4",   "--phi-large",  "0.22",
+                  "--initial",      "mixed",  "--accuracy", "draft", "--min-sweeps", "4000",
+                  "--max-sweeps",   "4000",   "--seed",     "1"});
+  double steps = 0;
+  const auto count = [&](double) { ++steps; };
+  const auto bed = deposit<2>(scene, {.each_step = count, .slowed = {}, .record = {}});
+  const double off = std::abs(bed_height(bed) / scene.depth - 1);
+  EXPECT_GT(off, depth_tolerance);
+  EXPECT_LT(off, 0.1);
+  EXPECT_GT(4000 * steps, 3e6);
+  EXPECT_EQ(bed.time(), 0);
+}
+
 // Forty large discs in a cell three wide are more than ten diameters high, and none may be left out.
 TEST(Deposition, OfLargeGrainsAloneThatAreTooHighGivesUpEarly)
 {
