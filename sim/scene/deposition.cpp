@@ -20,9 +20,9 @@
 namespace grseg {
 namespace {
 
-// Attempts are slow if they need more than `slow_step` sweeps a step, as of heavy grains above light
-// ones; ordinary ones need 10 to 300. Once they have cost `most_sweeps`, some half a minute for a
-// hundred grains, the tolerance is wider.
+// An attempt is slow if it needs more than `slow_step` sweeps a step. Heavy grains above light ones do;
+// an ordinary bed needs 7 to 10. Once slow attempts have cost `most_sweeps`, half a minute for a hundred
+// grains, the tolerance is wider.
 constexpr double slow_step = 1000, most_sweeps = 3e6, tolerance_if_slow = 0.1;
 // Solid fraction of a deposit of discs, and of spheres, for the first attempt.
 constexpr double usual_solid_fraction = 0.81, usual_of_spheres = 0.61;
@@ -478,12 +478,12 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
     auto packing = loose_packing(scene, volume, hooks.layered, random);
     deposited += packing.grains.size();
     set_falling(packing, scene, random);
-    const auto start = simulation_of<D>(packing, scene);
-    Bed<D> bed{start, start, 0, 0};
-    const auto settled = settle(bed.resting, scene, hooks);
-    const double height = bed_height(bed.resting, scene.geometry->boundaries(scene).top);
-    bed.steps = settled.steps;
-    bed.off = scene.geometry->checks_height ? std::abs(height - scene.depth) / scene.depth : 0;
+    auto falling = simulation_of<D>(packing, scene), resting = falling;
+    const auto settled = settle(resting, scene, hooks);
+    const double height = bed_height(resting, scene.geometry->boundaries(scene).top);
+    const double off =
+        scene.geometry->checks_height ? std::abs(height - scene.depth) / scene.depth : 0;
+    Bed<D> bed{std::move(falling), std::move(resting), settled.steps, off};
     if (bed.off <= depth_tolerance) return finished(bed, scene, hooks);
     if (settled.is_slow()) {
       sweeps += settled.sweeps;
