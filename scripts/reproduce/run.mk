@@ -29,6 +29,7 @@ word_branch := --assign branch
 word_grain := --assign grain
 word_gauss := --assign gauss
 word_centre := --composition centre
+word_1dS := --layer 1dS
 word_2dS := --layer 2dS
 word_8dS := --layer 8dS
 # Random labels change the content of the trajectory, so its seal is no longer valid.

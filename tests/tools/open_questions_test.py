@@ -7,6 +7,7 @@ import math
 import os
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 
@@ -352,6 +353,64 @@ class RigidLimit(unittest.TestCase):
                                      capture_output=True, text=True)
             self.assertNotEqual(refused.returncode, 0)
             self.assertIn("three are needed", refused.stderr)
+
+
+def sphere_layers(whole, b):
+    """Rows of grseg-stress, windows of 5 s, with stress that no height changes, in which B of a layer is b(phi_L)."""
+    rows = []
+    for t in (5, 10, 25, 60, 90):
+        for k in range(3, 22):
+            phi = (0.37 * k + 0.01 * t + whole) % 0.9 + 0.05
+            large = 100 * (phi + b(phi) * phi * (1 - phi))
+            rows.append({"t0": t, "t1": t + 5, "y0": k * D, "y1": (k + 1) * D, "frames": 50, "V": 1e-3, "area_S": 1 - phi, "area_L": phi,
+                         "A_SS_yy": 100 - large, "A_LL_yy": large, **dict.fromkeys(("A_Sb_yy", "A_Lb_yy", "M_yy", "Msize_yy"), 0.0)})
+    return rows
+
+
+class Spheres(Pipeline):
+    """B of chutes of spheres."""
+
+    def test_b_of_a_layer_is_found_by_its_composition_at_any_time(self):
+        for seed, more in ((1, 0.001), (2, -0.001)):
+            for whole in (0.3, 0.6):
+                self.campaign.run(f"phi{whole:.2f}-s26-seed{seed}", stress_branch_1dS=sphere_layers(whole, lambda phi: 0.2 * phi - 0.02 + more))
+        self.campaign.answer("grseg-fit", rows=fitted(B=(0.04, 0.03, 0.05), p_zero=0.64))
+        rows = self.campaign.made_by("spheres")
+        of = {row["name"]: row for row in rows if row["of"] == "phi_L"}
+        self.assertAlmostEqual(of["excess over phi"]["value"], 0.2, 9)
+        self.assertAlmostEqual(of["excess over whole"]["value"], 0, 9)
+        for k in range(1, 9):
+            self.assertAlmostEqual(of[f"all {k}"]["value"], 0.02 * (k + 0.5) - 0.02, delta=0.011)
+        # Two seeds that differ by 0.002: the half-width is Student's 12.7 times 0.001.
+        self.assertAlmostEqual(of["early 5"]["high"] - of["early 5"]["value"], 0.0127, 4)
+        b = next(row for row in rows if row["of"] == 0.3 and row["name"] == "B 60-100")
+        self.assertEqual((b["value"], b["low"], b["high"]), (0.04, 0.03, 0.05))
+
+    def test_a_class_without_grains_has_no_b(self):
+        layers = sphere_layers(0.3, lambda phi: 0.05)
+        self.campaign.run("phi0.30-s26-seed1", stress_branch_1dS=[row for row in layers if row["area_L"] < 0.5])
+        rows = self.campaign.made_by("spheres")  # without an answer of grseg-fit, too
+        of = {row["name"]: row["value"] for row in rows}
+        self.assertAlmostEqual(of["all 2"], 0.05, 9)
+        self.assertTrue(math.isnan(of["all 7"]))
+        self.assertTrue(math.isnan(of["B 10-20"]))
+
+    def test_tables_of_a_sweep_are_kept_under_names_of_the_campaign(self):
+        sweep = os.path.join(self.temporary.name, "tables")
+        layers = sphere_layers(0.3, lambda phi: 0.05)
+        plain = {name: layers for name in ("stress", "stress_branch_1dS", "kinetic_2dS", "micro_2dS", "segregation")}
+        self.campaign.run("a", **plain)
+        os.makedirs(os.path.join(sweep, "unfinished"))
+        with open(os.path.join(sweep, "runs.tsv"), "w") as runs:
+            runs.write("run\tflow\tphi-large\tseed\na\tx\t0.3\t2\nunfinished\tx\t0.3\t3\n")
+        archive = os.path.join(sweep, "spheres.tar.bz2")
+        subprocess.run(["/usr/bin/python3", "-B", campaign, "keep", sweep, archive, "--spheres"], check=True)
+        with tarfile.open(archive) as kept:
+            self.assertEqual(sorted(kept.getnames()), sorted(f"phi0.30-s23-seed2/{name}" for name in
+                             ["checksums", *(name.replace("_", "-") + ".tsv" for name in plain)]))
+            text = kept.extractfile("phi0.30-s23-seed2/stress-branch-1dS.tsv").read().decode()
+        self.assertIn("# window: 5", text)
+        self.assertEqual(len(text.splitlines()) - text.count("#"), 1 + len(layers))
 
 
 class Answers(unittest.TestCase):

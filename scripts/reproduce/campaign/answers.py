@@ -1,4 +1,5 @@
 """Tables of the documents on questions that the paper leaves open."""
+import math
 import os
 import re
 
@@ -112,6 +113,26 @@ def denser(rows):
         markdown(list(found), [list(found.values())]) if ratios else NONE
 
 
+def spheres(rows):
+    """Table of B of chutes of spheres by mixture."""
+    columns = {"**B by size**, 10 to 20 s": ("B 10-20", 3), "20 to 30 s": ("B 20-30", 3), "60 to 100 s": ("B 60-100", 3),
+               "layers of 4 d_S, 60 to 100 s": ("B kept 4dS 60-100", 3), "20 to 30 s: p*": ("p_star", 3), "exponent a": ("exponent", 2),
+               "B by half": ("B half", 3), "B_κ": ("B_kappa", 2)}
+    at = {(row["of"], row["name"]): row for row in rows if row["of"] != "phi_L"}
+    cell = lambda row, digits: "" if math.isnan(row["value"]) else Value(row["value"], row["low"], row["high"]).text(digits)
+    return markdown(["Φ_L", *columns], [[of, *(cell(at[of, name], digits) for name, digits in columns.values())]
+                                        for of in dict.fromkeys(of for of, _ in at)])
+
+
+def spheres_by_composition(rows):
+    """Table of B of layers of spheres by their composition."""
+    at = {row["name"]: row for row in rows if row["of"] == "phi_L"}
+    cell = lambda row: "" if math.isnan(row["value"]) else Value(row["value"], row["low"], row["high"]).text(3)
+    return markdown(["φ_L of the layer", "B", "10 to 30 s", "60 to 100 s"],
+                    [[f"{k / 10:g} to {(k + 1) / 10:g}", *(cell(at[f"{name} {k}"]) for name in ("all", "early", "late"))] for k in range(10)]) \
+        if at else NONE
+
+
 def read(folder, name):
     path = os.path.join(folder, name + ".tsv")
     return tables.read(path)[1] if os.path.exists(path) else []
@@ -132,13 +153,15 @@ def parts_of(folder):
         "stages": stages(read(folder, "stages")),
         "closures": closures(read(folder, "closures")),
         "denser": denser(read(folder, "denser")),
+        "spheres": spheres(read(folder, "spheres")),
+        "spheres-composition": spheres_by_composition(read(folder, "spheres")),
     }
 
 
 def answers(options):
-    """Rewrites tables of documents from the results of the commands questions, stages, rigid-limit, closures and denser.
+    """Rewrites tables of documents from the results of the commands questions, stages, rigid-limit, closures, denser and spheres.
 
-    FOLDER contains questions.tsv and, if there are runs for them, stages.tsv, rigid-limit.tsv, closures.tsv and denser.tsv. Each
+    FOLDER contains the results that exist: questions.tsv, stages.tsv, rigid-limit.tsv, closures.tsv, denser.tsv, spheres.tsv. Each
     table is in one of the documents, between <!-- NAME --> and <!-- /NAME -->; a table without finished runs may be missing.
     """
     parts = parts_of(options.folder)

@@ -41,6 +41,8 @@ OF_QUESTIONS = ("stress", "stress-random", "kinetic", "kinetic-instant", "kineti
                 "micro", "segregation", "balance-rules")
 COLUMNS["balance-rules"] = r"gravity_L_y|phi_L|B_kappa|push\S*|drag\S*|N_L_y|p_zero"
 QUESTION_WINDOW = 5  # length of their windows, s
+# Tables of a sweep of spheres (docs/studies/three-dimensions.md), which are reduced like those of `make questions`.
+OF_SPHERES = ("stress", "stress-branch-1dS", "kinetic-2dS", "micro-2dS", "segregation")
 COLUMNS["flux"] = COLUMNS["segregation"] + r"|area_.|mass_.|phi_L|q_L|q_L_error|D|dphi_dy|dphi_dy_error|mvv_._yy|gain_._y"
 # Columns whose mean is over the windows in which the layer has grains; in other columns a missing layer counts as 0.
 OF_PRESENT = ("phi_L", "q_L", "q_L_error", "D", "dphi_dy", "dphi_dy_error", "shear_rate", "B_kappa", "p_zero")
@@ -118,8 +120,24 @@ def without_folders(text):
     return shared.changed(text, r"(?m)^(# history: .*)$", lambda line: re.sub(r"(?<=\s)/\S*/", "", line[0]))
 
 
-def files_of(run, question):
-    kept = OF_QUESTIONS if question else {"": OF_PLAIN, tables.CONTROL: OF_CONTROL}.get(run.variant, OF_VARIANTS)
+def runs_of_sweep(folder):
+    """The finished runs of a sweep (scripts/sweep) over phi-large and seed, with the names of the campaign: phi0.30-s26-seed1."""
+    _, (_, _, *keys), rows = shared.lines_of(os.path.join(folder, "runs.tsv"))
+    found = []
+    for name, _, *values in rows:
+        if os.path.exists(os.path.join(folder, name, "checksums")):
+            of, (header, _) = dict(zip(keys, values)), tables.read(os.path.join(folder, name, "stress.tsv"))
+            slope = math.degrees(math.atan2(float(header["gravity_x"]), -float(header["gravity_y"])))
+            match = tables.NAME.match(f"phi{float(of['phi-large']):.2f}-s{slope:.4g}-seed{of['seed']}")
+            run = tables.Run(folder, match[0], match)
+            run.path = lambda table, of=name: os.path.join(folder, of, f"{table}.tsv")
+            found.append(run)
+    return found
+
+
+def files_of(run, options):
+    question = options.questions or options.spheres
+    kept = OF_SPHERES if options.spheres else OF_QUESTIONS if question else {"": OF_PLAIN, tables.CONTROL: OF_CONTROL}.get(run.variant, OF_VARIANTS)
     for table in (*kept, *WHOLE):
         if question and not run.has(table):
             continue
@@ -141,12 +159,14 @@ def keep(options):
     counts as empty. The same tables give the same bytes. make -C scripts reproduction.md reads the archive.
     --questions: archives instead the runs of `make questions` and of the second program (LAMMPS), with all columns that
     questions, stages and mixtures read.
+    --spheres: archives a sweep over phi-large and seed instead (docs/studies/three-dimensions.md).
     """
     part = options.archive + ".part"
+    runs = runs_of_sweep(options.tables) if options.spheres else tables.runs_in(options.tables)
     with tarfile.open(part, "w:bz2") as archive:
         # Similar files are stored together, for compression.
-        files = sorted((name, run.name, without_folders(text)) for run in tables.runs_in(options.tables)
-                       for name, text in files_of(run, options.questions))
+        files = sorted((name, run.name, without_folders(text)) for run in runs
+                       for name, text in files_of(run, options))
         for name, run, text in files:
             entry = tarfile.TarInfo(f"{run}/{name}")
             entry.size = len(text.encode())

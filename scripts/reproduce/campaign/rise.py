@@ -30,16 +30,18 @@ WINDOW = 5  # length of windows, s
 FEW = 3  # least number of grains of each species
 PAIRS = ("SS", "LS", "LL", "Sb", "Lb")
 CLASSES = 10  # classes of equal width of phi_L of a layer
+LEAST = 1e-3  # least share of a class in sum(frames q)
 # What B of a layer may depend on: Phi_L of the flow, phi_L of the layer, height and time over those of the paper's flows.
 FOLLOWED = {"whole": None, "phi": 1, "y": 60, "t": 150}
 FROM = 0.3  # least Phi_L of the upper mixtures; layers of mixtures with less have few large grains
 
 
-def layers_of(path):
+def layers_of(path, inside=tables.INSIDE, pairs=PAIRS):
     """Layers inside with both species, from one run's table of grseg-micro, in windows of WINDOW s.
 
     Returns a record array. It includes sums over the frames of a window: contents, numbers of contacts n_ and normal forces f_
-    by pair, stresses `small` and `large`; and numbers that follow from these sums. r is the ratio of diameters."""
+    by pair, stresses `small` and `large`; and numbers that follow from these sums. r is the ratio of diameters. A table of
+    grseg-stress has no numbers of grains and contacts, so `pairs` is then empty."""
     table = tables.table(path)
     d = table.number("small_diameter")
     r = table.number("large_diameter") / d
@@ -51,12 +53,14 @@ def layers_of(path):
     of = {"frames": np.bincount(group.ravel(), column("frames")), "t": column("t0")[first],
           "y": (column("y0") + column("y1"))[first] / 2 / d, "r": np.full(len(at), r),
           "area_S": total("area_S"), "area_L": total("area_L"), "large": total("A_LL_yy", "A_Lb_yy", "Msize_yy")}
-    of |= {f"n_{pair}": total(f"n_{pair}") for pair in PAIRS} | {f"f_{pair}": total(f"sum_fn_{pair}") for pair in PAIRS}
+    of |= {f"n_{pair}": total(f"n_{pair}") for pair in pairs} | {f"f_{pair}": total(f"sum_fn_{pair}") for pair in pairs}
+    if pairs:
+        of["grains"] = np.minimum(total("grains_S"), total("grains_L")) / of["frames"]
     stress = total("A_SS_yy", "A_Sb_yy", "M_yy", "A_LL_yy", "A_Lb_yy")
     whole = np.where(stress == 0, np.nan, stress)
     phi = of["area_L"] / (of["area_S"] + of["area_L"])
     q, thickness = phi * (1 - phi), (column("y1") - column("y0"))[first] / d
-    of |= {"grains": np.minimum(total("grains_S"), total("grains_L")) / of["frames"], "small": whole - of["large"], "phi": phi, "q": q,
+    of |= {"small": whole - of["large"], "phi": phi, "q": q,
            "kept": of["large"] / whole - phi, "mixed": total("M_yy") / whole, "by_size": total("Msize_yy") / whole,
            "neutral": q * (1 + r) / (phi + r * (1 - phi))}
     step = np.diff(at, axis=0)
@@ -65,7 +69,7 @@ def layers_of(path):
     of["excess"] = of["kept"] - tables.part_within(phi[above] - phi[below], stress[above] - stress[below],
                                                    np.maximum(above - below, 1), whole)
     layers = np.rec.fromarrays(list(of.values()), names=list(of))
-    low, high = tables.INSIDE
+    low, high = inside
     return layers[(layers.y > low) & (layers.y < high) & (layers.q > 0) & ~np.isnan(layers.excess)]
 
 
@@ -108,19 +112,21 @@ def terms(layers):
 
 
 def of_composition(layers, name):
-    """B from the sums of `excess` or `kept`, in each class of phi_L."""
+    """B from the sums of `excess` or `kept`, in each class of phi_L; nan for a class with less than LEAST of the weight."""
     of = np.minimum(layers.phi * CLASSES, CLASSES - 1).astype(int)
-    return np.bincount(of, layers.frames * layers[name], CLASSES) / np.bincount(of, layers.frames * layers.q, CLASSES)
+    weight = np.bincount(of, layers.frames * layers.q, CLASSES)
+    enough = weight > LEAST * weight.sum()
+    return np.where(enough, np.bincount(of, layers.frames * layers[name], CLASSES) / np.where(enough, weight, 1), np.nan)
 
 
-def followed(mixtures, layers, name):
-    """Slopes of B of a layer, from `excess` or `kept`, over each of FOLLOWED at equal others: least squares, weighted by frames
+def followed(mixtures, layers, name, units=FOLLOWED):
+    """Slopes of B of a layer, from `excess` or `kept`, over each of `units` at equal others: least squares, weighted by frames
     times q. `mixtures` are pairs of Phi_L and layers; `layers` are all of them."""
     of = {"whole": np.repeat([phi for phi, _ in mixtures], [len(own) for _, own in mixtures])}
-    of |= {field: layers[field] / unit for field, unit in FOLLOWED.items() if unit}
+    of |= {field: layers[field] / unit for field, unit in units.items() if unit}
     weight = np.sqrt(layers.frames * layers.q)
-    at = np.column_stack([weight] + [weight * of[field] for field in FOLLOWED])
-    return dict(zip(FOLLOWED, np.linalg.lstsq(at, weight * layers[name] / layers.q, rcond=None)[0][1:]))
+    at = np.column_stack([weight] + [weight * of[field] for field in units])
+    return dict(zip(units, np.linalg.lstsq(at, weight * layers[name] / layers.q, rcond=None)[0][1:]))
 
 
 def both(label, mixtures, slope):
