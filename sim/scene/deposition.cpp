@@ -478,7 +478,8 @@ Simulation<D> deposit(const Scene& scene, const DepositionHooks<D>& hooks)
     auto packing = loose_packing(scene, volume, hooks.layered, random);
     deposited += packing.grains.size();
     set_falling(packing, scene, random);
-    auto falling = simulation_of<D>(packing, scene), resting = falling;
+    auto falling = simulation_of<D>(packing, scene);
+    auto resting = falling;
     const auto settled = settle(resting, scene, hooks);
     const double height = bed_height(resting, scene.geometry->boundaries(scene).top);
     const double off =
