@@ -151,7 +151,11 @@ def add_shape(dice, keys):
     # A cell that is wide because large grains are wide would need too many small grains, so their share is reduced.
     share = max(share, 1 - MOST_SMALL[dimension] / count)
     if dice.chance(0.15) and share < 1:
-        keys["large-grains"] = str(max(1, round(share * count / ratio**dimension)))
+        volume = ratio**dimension  # of a large grain
+        large = max(1, round(share * count / volume))
+        # Rounding down would leave room for thousands of small grains beside one large grain less.
+        large += count - large * volume > 10 * MOST_SMALL[dimension]
+        keys["large-grains"] = str(large)
     else:
         keys["phi-large"] = f"{share:.6g}"
     if keys["geometry"] != "drum" and keys.get("base") != "wall":
