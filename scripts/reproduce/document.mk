@@ -3,6 +3,7 @@
 #
 #   make -C scripts reproduction.md                    docs/studies/reproduction.md, its annex and figures, from data/reproduction
 #   make -C scripts reproduction.md TABLES=FOLDER      the same, from the tables that make reproduce wrote into FOLDER
+#   make -C scripts three-dimensions.md                the tables of docs/studies/three-dimensions.md, from data/reproduction
 #   make -C scripts figures/kinetic-profile.png        one figure, in the folder WORK; .pdf for a publication
 #   make -C scripts kept TABLES=FOLDER                 makes data/reproduction again from the tables in FOLDER
 #
@@ -16,10 +17,11 @@ WORK ?= reproduction-figures
 DOCUMENT ?= $(CURDIR)/../../docs/studies/reproduction.md
 # If DOCUMENT is another page, an annex is written only if ANNEX names one.
 ANNEX ?= $(if $(filter file,$(origin DOCUMENT)),$(DOCUMENT:.md=-annex.md))
+SPHERES ?= $(CURDIR)/../../docs/studies/three-dimensions.md
 PICTURES ?= $(CURDIR)/../../docs/studies/figures/reproduction
 BOOTSTRAP ?= 1000
 
-$(call check_names,HERE BIN TABLES WORK DOCUMENT ANNEX PICTURES)
+$(call check_names,HERE BIN TABLES WORK DOCUMENT ANNEX PICTURES SPHERES)
 $(call check_values,BOOTSTRAP)
 reduce := /usr/bin/python3 $(CURDIR)/campaign
 work := $(call absolute,$(WORK))
@@ -27,7 +29,7 @@ bin := $(call absolute,$(BIN))
 tables := $(if $(TABLES),$(call absolute,$(TABLES)),$(work)/kept)
 gp := ../figures
 
-.PHONY: reproduction.md figures choices.tsv kept
+.PHONY: reproduction.md three-dimensions.md figures choices.tsv kept
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -103,6 +105,10 @@ $(work)/combinations.tsv: $(KEPT)/combinations.tsv | $(work)
 	cp $< $@
 $(work)/combined.tsv: $(work)/combinations.tsv $(call code,combinations combined)
 	$(reduce) combinations $< --figure $@ > /dev/null
+# Spheres have tables of their own, which are archived.
+$(work)/spheres.tsv: $(KEPT)/spheres.tar.bz2 $(call code,spheres rise) | $(work)
+	rm -rf $(work)/spheres && mkdir $(work)/spheres && tar -xjf $< -C $(work)/spheres
+	$(reduce) spheres $(work)/spheres -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
 $(work)/numbers.tsv: $(every) $(call code,measures rise profiles) | $(work)
 	$(reduce) numbers $(tables) -o $@ --bin $(bin)
 
@@ -117,7 +123,7 @@ $(call both,pressure-estimates): $(work)/paper.tsv $(work)/ends.tsv
 $(call both,micro-over-time): $(work)/time.tsv
 $(call both,b-of-p): $(work)/scan.tsv $(work)/stock.tsv
 $(call both,b-of-flows): $(work)/fits.tsv
-$(call both,b-of-composition): $(work)/numbers.tsv
+$(call both,b-of-composition): $(work)/numbers.tsv $(work)/spheres.tsv
 $(call both,combinations): $(work)/combined.tsv
 $(call both,balance): $(work)/balance-profile.tsv
 $(call both,kinetic-ratio): $(work)/kinetic.tsv $(work)/kinetic-fit.tsv $(gp)/stress-ratio.gp
@@ -138,6 +144,10 @@ reproduction.md: $(pictures) $(addprefix $(work)/,flows.tsv fits.tsv numbers.tsv
 	mkdir -p $(PICTURES)
 	cp $(pictures) $(PICTURES)
 	$(reduce) document $(work) $(DOCUMENT) $(ANNEX)
+
+# Only the generated tables are replaced.
+three-dimensions.md: $(work)/spheres.tsv
+	$(reduce) answers $(work) $(SPHERES)
 
 kept: $(work)/choices.tsv
 	@test -n "$(TABLES)" || { echo "name the tables to keep: TABLES=FOLDER" >&2; exit 2; }

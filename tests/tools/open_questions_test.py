@@ -362,7 +362,7 @@ def sphere_layers(whole, b):
         for k in range(3, 22):
             phi = (0.37 * k + 0.01 * t + whole) % 0.9 + 0.05
             large = 100 * (phi + b(phi) * phi * (1 - phi))
-            rows.append({"t0": t, "t1": t + 5, "y0": k * D, "y1": (k + 1) * D, "frames": 50, "V": 1e-3, "area_S": 1 - phi, "area_L": phi,
+            rows.append({"t0": t, "t1": t + 5, "y0": k * D, "y1": (k + 1) * D, "frames": 50, "V": 1e-3, "volume_S": 1 - phi, "volume_L": phi,
                          "A_SS_yy": 100 - large, "A_LL_yy": large, **dict.fromkeys(("A_Sb_yy", "A_Lb_yy", "M_yy", "Msize_yy"), 0.0)})
     return rows
 
@@ -388,7 +388,7 @@ class Spheres(Pipeline):
 
     def test_a_class_without_grains_has_no_b(self):
         layers = sphere_layers(0.3, lambda phi: 0.05)
-        self.campaign.run("phi0.30-s26-seed1", stress_branch_1dS=[row for row in layers if row["area_L"] < 0.5])
+        self.campaign.run("phi0.30-s26-seed1", stress_branch_1dS=[row for row in layers if row["volume_L"] < 0.5])
         rows = self.campaign.made_by("spheres")  # without an answer of grseg-fit, too
         of = {row["name"]: row["value"] for row in rows}
         self.assertAlmostEqual(of["all 2"], 0.05, 9)

@@ -18,9 +18,9 @@ WINDOW = {"micro": 5, "balance": 7.5}
 DIGITS = 3
 STRESS_DIGITS = {"stress": 2, "stress-random": 2, "kinetic": 2}
 # Columns that are archived besides KEYS, as regular expressions.
-STRESS = "area_.|(A_SS|A_LL|M|Msize|A_Sb|A_Lb)_(xx|yy)"
+STRESS = "(area|volume)_.|(A_SS|A_LL|M|Msize|A_Sb|A_Lb)_(xx|yy|zz)"
 COLUMNS = {
-    "stress": STRESS + "|(Mcp|F_Sb|F_Lb)_yy", "stress-random": STRESS, "kinetic": "mass_.|grains_.|K_._(xx|yy)",
+    "stress": STRESS + "|(Mcp|F_Sb|F_Lb)_yy", "stress-random": STRESS, "kinetic": "mass_.|grains_.|K_._(xx|yy|zz)",
     "micro": STRESS + "|grains_.|ends_.|(n|sum_f|sum_fn)_..|base_f.|yL|yS|height",
     "balance": "gravity_L_y|push|push_kinetic|drag", "segregation": "yL|height|shear_rate|strain",
 }
@@ -43,7 +43,7 @@ COLUMNS["balance-rules"] = r"gravity_L_y|phi_L|B_kappa|push\S*|drag\S*|N_L_y|p_z
 QUESTION_WINDOW = 5  # length of their windows, s
 # Tables of a sweep of spheres (docs/studies/three-dimensions.md), which are reduced like those of `make questions`.
 OF_SPHERES = ("stress", "stress-branch-1dS", "kinetic-2dS", "micro-2dS", "segregation")
-COLUMNS["flux"] = COLUMNS["segregation"] + r"|area_.|mass_.|phi_L|q_L|q_L_error|D|dphi_dy|dphi_dy_error|mvv_._yy|gain_._y"
+COLUMNS["flux"] = COLUMNS["segregation"] + r"|(area|volume)_.|mass_.|phi_L|q_L|q_L_error|D|dphi_dy|dphi_dy_error|mvv_._yy|gain_._y"
 # Columns whose mean is over the windows in which the layer has grains; in other columns a missing layer counts as 0.
 OF_PRESENT = ("phi_L", "q_L", "q_L_error", "D", "dphi_dy", "dphi_dy_error", "shear_rate", "B_kappa", "p_zero")
 WHOLE = ("segregation-summary", "record")

@@ -45,14 +45,15 @@ def layers_of(path, inside=tables.INSIDE, pairs=PAIRS):
     table = tables.table(path)
     d = table.number("small_diameter")
     r = table.number("large_diameter") / d
-    use = ~np.isnan(table["y0"]) & (table["area_S"] + table["area_L"] > 0)
+    of_small, of_large = ("area_S", "area_L") if "area_S" in table.columns else ("volume_S", "volume_L")
+    use = ~np.isnan(table["y0"]) & (table[of_small] + table[of_large] > 0)
     column = lambda name: table[name][use]
     at = np.column_stack([np.floor(column("t0") / WINDOW + 1e-6), (column("y0") / d).round(6)])
     at, first, group = np.unique(at, axis=0, return_index=True, return_inverse=True)
     total = lambda *names: np.bincount(group.ravel(), column("frames") * sum(map(column, names)))
     of = {"frames": np.bincount(group.ravel(), column("frames")), "t": column("t0")[first],
           "y": (column("y0") + column("y1"))[first] / 2 / d, "r": np.full(len(at), r),
-          "area_S": total("area_S"), "area_L": total("area_L"), "large": total("A_LL_yy", "A_Lb_yy", "Msize_yy")}
+          "area_S": total(of_small), "area_L": total(of_large), "large": total("A_LL_yy", "A_Lb_yy", "Msize_yy")}
     of |= {f"n_{pair}": total(f"n_{pair}") for pair in pairs} | {f"f_{pair}": total(f"sum_fn_{pair}") for pair in pairs}
     if pairs:
         of["grains"] = np.minimum(total("grains_S"), total("grains_L")) / of["frames"]
