@@ -474,6 +474,16 @@ class Answers(unittest.TestCase):
         self.assertIn("| 5-20 s | 0.050 [0.040, 0.060] | 0.030 [0.020, 0.040] | 4 blocks |", text)
         self.assertIn("| +q | j | 0.200 [0.190, 0.210] | 4 blocks |", text)
 
+    def test_spheres_have_a_row_for_each_mixture_and_each_class_of_composition(self):
+        names = ["B 10-20", "B 20-30", "B 60-100", "B kept 4dS 60-100", "p_star", "B half", "B_kappa"]
+        rows = [{"of": phi, "name": name, "value": value, "low": value - 0.01, "high": value + 0.01}
+                for phi, value in (("0.30", 0.04), ("0.45", 0.06)) for name in names]
+        rows += [{"of": "phi_L", "name": f"{name} {k}", "value": 0.1 if k < 9 else math.nan, "low": math.nan, "high": math.nan}
+                 for name in ("all", "early", "late") for k in range(10)]
+        _, after = self.rewritten("".join(f"<!-- {name} -->\n<!-- /{name} -->\n" for name in ("spheres", "spheres-composition")), spheres=rows)
+        self.assertIn("\n| 0.30 | 0.040 [0.030, 0.050] |", after)
+        self.assertIn("\n| 0.8 to 0.9 | 0.100 | 0.100 | 0.100 |\n| 0.9 to 1 |  |  |  |\n", after)
+
     def test_runs_without_a_place_in_the_document_are_refused(self):
         stage = {"of": "both", "what": "k", "value": 0.1234, "low": 0.1, "high": 0.2, "over": "2 runs"}
         done, after = self.rewritten("nothing\n", stages=[stage])

@@ -116,21 +116,20 @@ def denser(rows):
 def spheres(rows):
     """Table of B of chutes of spheres by mixture."""
     columns = {"**B by size**, 10 to 20 s": ("B 10-20", 3), "20 to 30 s": ("B 20-30", 3), "60 to 100 s": ("B 60-100", 3),
-               "layers of 4 d_S, 60 to 100 s": ("B kept 4dS 60-100", 3), "20 to 30 s: p*": ("p_star", 3), "exponent a": ("exponent", 2),
-               "B by half": ("B half", 3), "B_κ": ("B_kappa", 2)}
+               "4 d_S, 60 to 100 s": ("B kept 4dS 60-100", 3), "20 to 30 s: p*": ("p_star", 3), "B by half": ("B half", 3), "B_κ": ("B_kappa", 2)}
     at = {(row["of"], row["name"]): row for row in rows if row["of"] != "phi_L"}
     cell = lambda row, digits: "" if math.isnan(row["value"]) else Value(row["value"], row["low"], row["high"]).text(digits)
-    return markdown(["Φ_L", *columns], [[of, *(cell(at[of, name], digits) for name, digits in columns.values())]
+    return markdown(["Φ_L", *columns], [[f"{of:.2f}", *(cell(at[of, name], digits) for name, digits in columns.values())]
                                         for of in dict.fromkeys(of for of, _ in at)])
 
 
 def spheres_by_composition(rows):
     """Table of B of layers of spheres by their composition."""
     at = {row["name"]: row for row in rows if row["of"] == "phi_L"}
-    cell = lambda row: "" if math.isnan(row["value"]) else Value(row["value"], row["low"], row["high"]).text(3)
+    text = lambda name, *ends: "" if math.isnan(at[name]["value"]) else Value(*(at[name][of] for of in ("value", *ends))).text(3)
     return markdown(["φ_L of the layer", "B", "10 to 30 s", "60 to 100 s"],
-                    [[f"{k / 10:g} to {(k + 1) / 10:g}", *(cell(at[f"{name} {k}"]) for name in ("all", "early", "late"))] for k in range(10)]) \
-        if at else NONE
+                    [[f"{k / 10:g} to {(k + 1) / 10:g}", text(f"all {k}", "low", "high"), text(f"early {k}"), text(f"late {k}")]
+                     for k in range(10)]) if at else NONE
 
 
 def read(folder, name):

@@ -29,8 +29,7 @@ def of_mixture(options, runs):
         time = f"{begin}-{end}"
         found[f"B {time}"] = fitted(options, runs, "stress-branch-1dS", begin, end), "B"
         found[f"B kept 4dS {time}"] = fitted(options, runs, "stress", begin, end, "--thickness", "kept"), "B"
-    thin = fitted(options, runs, "stress-branch-1dS", *NUMBERS, "--exponent")
-    found |= {"p_star": (thin, "p_zero"), "exponent": (thin, "size_exponent"),
+    found |= {"p_star": (found["B {}-{}".format(*NUMBERS)][0], "p_zero"),
               "B half": (fitted(options, runs, "stress-branch-1dS", *NUMBERS, "--partition", "half"), "B"),
               "B_kappa": (fitted(options, runs, "kinetic-2dS", *NUMBERS, "--quantity", "kinetic"), "B")}
     return {name: [row.get(number + end, math.nan) for end in tables.ENDS] for name, (row, number) in found.items()}
@@ -59,7 +58,7 @@ def spheres(options):
     Layers are from 4 to 20 d_S, 1 d_S thick, by branch vectors, without what gradients inside them add, but for "kept 4dS": layers
     of 4 d_S, by contact points, with it. Intervals are 95 % over runs. Rows of a mixture (of = Phi_L):
         B T0-T1, B kept 4dS T0-T1   B by size between these times, s
-        p_star exponent B_half B_kappa   20 to 30 s; B_kappa in layers of 2 d_S
+        p_star, B half, B_kappa   20 to 30 s; B_kappa in layers of 2 d_S
     Rows of all mixtures (of = phi_L), where a seed of all mixtures counts as one run:
         all K, early K, late K      B by size of layers with phi_L from K/10 to (K + 1)/10: from 10 s on, 10 to 30 s, 60 to 100 s
         excess over X, kept over X  slope of B of a layer over Phi_L of the flow (whole), phi_L, height over 26 d_S (y) and time
