@@ -156,9 +156,7 @@ Json rule_object(const RuleFit& fit, const std::vector<Flow>& flows)
 /// B with its interval for each share p; for two species also p*, the share at which B is 0.
 Json scan_object(const Selected& selected, const PartitionSettings& settings)
 {
-  const Bootstrap bootstrap(selected.samples.runs, settings.resampling.samples,
-                            settings.resampling.seed);
-  const auto scan = scan_partition(selected.samples, grid, settings.fit, bootstrap);
+  const auto scan = scan_partition(selected.samples, grid, settings.fit);
   Json object{{"p", grid.shares()}, {"B", Json::array()}};
   for (const auto& fit : scan.fits) object["B"].push_back(b_with_interval(fit));
   if (selected.samples.species.size() <= 2)
@@ -178,9 +176,7 @@ Json settings_object(const Selected& selected, const PartitionSettings& settings
               {"rows", data.count.sentence()},
               {"runs", fmt::format("{}", data.runs.size())},
               {"windows", fmt::format("{}", number_of_windows(data.runs))},
-              {"window", fmt::format("{:g} s", data.window)},
-              {"bootstrap", fmt::format("{}", settings.resampling.samples)},
-              {"seed", fmt::format("{}", settings.resampling.seed)}};
+              {"window", fmt::format("{:g} s", data.window)}};
   const auto& pair = data.samples.front().pair;
   if (data.species.size() > 2)
     object["pair"] = data.species[pair.smaller].name + ',' + data.species[pair.larger].name;
@@ -221,14 +217,12 @@ Json partition_data(const StressTables& input, const PartitionSettings& settings
   object["settings"] = settings_object(selected, settings);
   object["scan"] = scan_object(selected, settings);
   object["rules"] = Json::array();
-  std::vector<std::string> doubts;
-  if (settings.resampling.samples > 0)
-    doubts = doubts_of_tables(input.sums, selected.tables, selected.samples);
+  auto doubts = doubts_of_tables(input.sums, selected.tables, selected.samples);
   if (const auto doubt = doubt_of_start(selected.samples, settings.rules.front(), settings.fit);
       !doubt.empty())
     doubts.push_back(doubt);
   for (auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
-                             settings.rules, settings.fit, settings.resampling, false)) {
+                             settings.rules, settings.fit, false)) {
     for (const auto& doubt : doubts) add_doubt(fit, doubt);
     object["rules"].push_back(rule_object(fit, selected.flows));
   }

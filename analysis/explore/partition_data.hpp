@@ -26,7 +26,6 @@ struct PartitionSettings {
   FitSettings fit;
   FitFilters filters;
   std::string pair;  // the two species compared, "A,B"; "": the first two
-  Resampling resampling{1000, 1};
 };
 
 /// Data from which a page computes B for any rule, and the results of grseg-fit, with intervals, for the

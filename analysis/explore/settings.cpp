@@ -44,10 +44,6 @@ void ExploreSettings::add_to(po::options_description& options)
   add("heights",
       po::value(&partition.filters.heights)->value_name("y0:y1")->default_value(inside_the_bed),
       fmt::format("layers from which B is computed: {}", heights_help).c_str());
-  add("bootstrap", po::value(&bootstrap)->default_value(bootstrap)->value_name("N"),
-      "number of bootstrap samples for the 95 % intervals; 0: no intervals");
-  add("seed", po::value(&seed)->default_value(seed)->value_name("N"),
-      "seed of the random numbers that draw these samples");
   frames.add_to(options, FrameOptions::Makes::page);
 }
 
@@ -55,9 +51,6 @@ void ExploreSettings::check(const po::variables_map& values)
 {
   if (shown_frames < 1 || shown_frames > 10000)
     throw UsageError(fmt::format("--frames {}: it must be 1 to 10000", shown_frames));
-  if (bootstrap != 0 && (bootstrap < 100 || bootstrap > 100000))
-    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", bootstrap));
-  if (seed < 0) throw UsageError("--seed must not be negative");
   partition.fit.component = choose(component, "--component", components);
   if (!base.empty()) choose(base, "--base-part", base_parts);
   check_heights(partition.filters.heights);
@@ -78,7 +71,6 @@ void ExploreSettings::check(const po::variables_map& values)
   auto& filters = partition.filters;
   filters.begin = frames.windows.begin.value_or(filters.begin);
   filters.end = frames.windows.end.value_or(filters.end);
-  partition.resampling = {static_cast<std::size_t>(bootstrap), static_cast<unsigned long>(seed)};
   frames.output.check(values);
   const bool to_terminal = frames.output.path.empty() && isatty(STDOUT_FILENO) == 1;
   if (to_terminal && !frames.json)
@@ -152,9 +144,7 @@ std::string fit_options(const ExploreSettings& own, bool given)
   return (given ? times_of(own.frames.windows) : "") +
          option("--heights", own.partition.filters.heights, std::string(inside_the_bed)) +
          option("--component", own.component, usual.component) +
-         option("--base-part", own.base, usual.base) +
-         option("--bootstrap", own.bootstrap, usual.bootstrap) +
-         option("--seed", own.seed, usual.seed);
+         option("--base-part", own.base, usual.base);
 }
 
 }  // namespace

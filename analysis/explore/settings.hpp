@@ -21,8 +21,7 @@ struct ExploreSettings {
   std::vector<std::string> rules{"stock"};
   /// Rule shown first; component of the stress; rule for contacts with the base, "": as in the table.
   std::string start = "size", component = "yy", base;
-  int shown_frames = 100, bootstrap = 1000;
-  long seed = 1;
+  int shown_frames = 100;
 
   void add_to(po::options_description& options);
   /// Sets `partition` from the options. Throws UsageError if an option has a wrong value. Reads no run.

@@ -3,7 +3,7 @@
 
 #include "analysis/fit/estimators.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
-#include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>

@@ -144,12 +144,6 @@ WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& ru
   return {std::move(sums), window_noise(points, windows)};
 }
 
-Eigen::MatrixXd WindowSums::totals(const Eigen::MatrixXd& times) const
-{
-  const Eigen::RowVectorXd without_noise = total() - noise.colwise().sum();
-  return (times * noise).rowwise() + without_noise;
-}
-
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total)
 {
   const double w = total[Sum::w], w_x = total[Sum::wX], w_y = total[Sum::wY];
@@ -177,21 +171,6 @@ Eigen::RowVectorXd values_of(const Estimators& estimators)
 
 }  // namespace
 
-Eigen::MatrixXd WindowSums::sampled(const Eigen::MatrixXd& times) const
-{
-  const Eigen::MatrixXd all = totals(times);
-  Eigen::MatrixXd values(all.rows(), index(estimator_columns.size()));
-  for (Eigen::Index k = 0; k < all.rows(); ++k)
-    values.row(k) = values_of(estimators_from_sums(all.row(k)));
-  return values;
-}
-
-Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up)
-{
-  return adds_up ? dependence(windows.noise.col(Sum::fD), windows.sums.col(Sum::fQ), runs)
-                 : dependence(windows.noise.col(Sum::wY), windows.sums.col(Sum::w), runs);
-}
-
 // Derivatives by central differences.
 Influence influence_on(double Estimators::*place, const WindowSums& windows)
 {
@@ -211,14 +190,8 @@ Influence influence_on(double Estimators::*place, const WindowSums& windows)
   return {of_sums.col(column_of(place)), of_noise.col(column_of(place))};
 }
 
-/// Sums over the windows of each run.
-Eigen::VectorXd RunErrors::by_run(const std::vector<Run>& runs, const Eigen::VectorXd& of_windows)
-{
-  return numbers_of(
-      runs, [&](const Run& run) { return of_windows.segment(run.first, run.windows).sum(); });
-}
-
-RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight) : weight_(weight)
+Errors::Errors(const FitData& data, const Eigen::VectorXd& weight)
+    : runs_(data.runs), weight_(weight)
 {
   std::map<std::size_t, std::vector<Run>> flows;
   Eigen::Index first = 0;
@@ -226,30 +199,41 @@ RunErrors::RunErrors(const FitData& data, const Eigen::VectorXd& weight) : weigh
     flows[data.flow_of(run)].push_back({first, index(data.runs[run])});
     first += index(data.runs[run]);
   }
-  for (const auto& [flow, runs] : flows) flows_.push_back({runs, by_run(runs, weight)});
+  for (const auto& [flow, runs] : flows) flows_.push_back({runs, of_runs(runs, weight)});
 }
 
-StandardError RunErrors::within_flows(const Influence& influence) const
+/// Sums over the windows of each run.
+Eigen::VectorXd Errors::of_runs(const std::vector<Run>& runs, const Eigen::VectorXd& of_windows)
 {
-  std::vector<StandardError> parts;
-  for (const auto& [runs, weight] : flows_) {
-    if (runs.size() > 1) {
-      parts.push_back(scatter_of_runs(by_run(runs, influence.sums), weight));
-      continue;
-    }
-    const Eigen::VectorXd own = influence.noise.segment(runs[0].first, runs[0].windows);
-    parts.push_back(standard_error(
-        own - own.sum() / weight[0] * weight_.segment(runs[0].first, runs[0].windows), 1));
-  }
-  return added(parts);
+  return numbers_of(
+      runs, [&](const Run& run) { return of_windows.segment(run.first, run.windows).sum(); });
 }
 
-double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const
+StandardError Errors::of_flow(const Flow& flow, const Influence& influence) const
+{
+  if (flow.runs.size() > 1)
+    return deviation_of_runs(of_runs(flow.runs, influence.sums), flow.weight).error();
+  const auto [first, windows] = flow.runs[0];
+  return deviation_of_windows(influence.noise.segment(first, windows),
+                              weight_.segment(first, windows), {static_cast<std::size_t>(windows)})
+      .error();
+}
+
+StandardError Errors::over(Population population, const Influence& influence) const
+{
+  if (population == Population::windows)
+    return deviation_of_windows(influence.noise, weight_, runs_).error();
+  if (population == Population::compositions)
+    return deviation_of_runs(by_run(influence.noise, runs_), by_run(weight_, runs_)).error();
+  return added(listed(flows_, [&](const Flow& flow) { return of_flow(flow, influence); }));
+}
+
+double Errors::chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const
 {
   double sum = 0, all = 0, within = 0, of_means = 0;
   std::size_t runs = 0;
   for (const auto& flow : flows_) {
-    const Eigen::VectorXd value = by_run(flow.runs, influence).cwiseQuotient(flow.weight);
+    const Eigen::VectorXd value = of_runs(flow.runs, influence).cwiseQuotient(flow.weight);
     const double weight = flow.weight.sum(), mean = flow.weight.dot(value) / weight;
     within += flow.weight.dot((value.array() - mean).square().matrix());
     of_means += weight * mean * mean;
@@ -265,7 +249,7 @@ double RunErrors::chance_of_likeness(const Eigen::VectorXd& influence, double fi
                          within_degrees);
 }
 
-std::size_t RunErrors::single_runs() const
+std::size_t Errors::single_runs() const
 {
   return static_cast<std::size_t>(
       std::ranges::count(flows_, 1U, [](const Flow& flow) { return flow.runs.size(); }));

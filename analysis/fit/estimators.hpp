@@ -3,7 +3,7 @@
 
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 
 #include <Eigen/Core>
 #include <array>
@@ -56,7 +56,7 @@ Estimators estimators_of(const std::vector<FitPoint>& points);
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule);
 
 /// Additive sums from which every estimator follows, one row per window, and their noise. The noise
-/// is the part of a sum that the layers' compositions do not explain; resampling varies it alone.
+/// is the part of a sum that the layers' compositions do not explain.
 ///
 /// Columns are sums over a window's points. With f the number of frames of a point, w its weight, x
 /// = phi_S/phi_L, y = sigma^S/sigma^L, D = psi_L - phi_L and Q = phi_L phi_S they are: f D and f Q
@@ -75,18 +75,8 @@ struct WindowSums {
   /// Sum of frames x (psi_L - phi_L) over each window's layers and, next function, its noise.
   Eigen::VectorXd excess() const { return sums.col(fD); }
   Eigen::VectorXd excess_noise() const { return noise.col(fD); }
-  /// Sums of resampled windows, one row per sample. times(sample, k) is how often a sample includes
-  /// window k.
-  Eigen::MatrixXd totals(const Eigen::MatrixXd& times) const;
-  /// Estimators of resampled windows: a row per sample, a column per entry of estimator_columns.
-  Eigen::MatrixXd sampled(const Eigen::MatrixXd& times) const;
 };
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs);
-
-/// How far the windows' contributions to B depend on each other (Dependence, confidence.hpp). If
-/// partial stresses do not add up to the whole, there is no B; then contributions to the mean of
-/// ln(y/x) are used (y stress ratio, x = phi_S/phi_L).
-Dependence dependence(const WindowSums& windows, const RunLengths& runs, bool adds_up);
 
 /// Estimators from WindowSums::total(); they equal estimators_of(points).
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total);
@@ -106,16 +96,16 @@ struct Influence {
 /// window's sums. The influences of all windows add up to 0, since estimators are ratios.
 Influence influence_on(double Estimators::*place, const WindowSums& windows);
 
-/// Errors of statistics over whole runs of fixed flows: the sum of the flows' errors. If a flow has
-/// a single run, the scatter of windows replaces the scatter of runs. The deviation of a window is
-/// then its influence minus a share of the run's influence, in proportion to the window's weight.
-class RunErrors {
+/// Errors of statistics whose deviation is the sum of the windows' influences.
+class Errors {
  public:
   /// `weight`: weight of each window in the statistic.
-  RunErrors(const FitData& data, const Eigen::VectorXd& weight);
+  Errors(const FitData& data, const Eigen::VectorXd& weight);
 
-  /// Error of a statistic whose deviation is the sum of the windows' influences.
-  StandardError within_flows(const Influence& influence) const;
+  /// Error over a population. Over windows it follows from their noise; over compositions from the
+  /// noise of whole runs, whatever their flow; otherwise it is the sum of the errors of the flows,
+  /// each from its whole runs. The windows of a flow with a single run replace its runs.
+  StandardError over(Population population, const Influence& influence) const;
   /// Probability of differences between flows at least as large as the measured ones if all flows
   /// were alike; 1 if unknown. Fisher's test compares influence/weight of runs, as mean squares
   /// between and within flows. `fitted`: degrees of freedom of the differences between flows that
@@ -132,23 +122,12 @@ class RunErrors {
     std::vector<Run> runs;
     Eigen::VectorXd weight;  // weight of each run
   };
-  static Eigen::VectorXd by_run(const std::vector<Run>& runs, const Eigen::VectorXd& of_windows);
+  static Eigen::VectorXd of_runs(const std::vector<Run>& runs, const Eigen::VectorXd& of_windows);
+  StandardError of_flow(const Flow& flow, const Influence& influence) const;
 
+  RunLengths runs_;
   Eigen::VectorXd weight_;  // weight of each window
   std::vector<Flow> flows_;
 };
-
-/// Error of a statistic over a population. `sampled` computes the statistic of each sample from how
-/// often the sample includes each window; the statistic's deviation is the sum of `influence`.
-template <class Sampled>
-StandardError error_over(Population over, const Bootstrap& bootstrap, const Dependence& dependence,
-                         const Sampled& sampled, const RunErrors& runs, const Influence& influence)
-{
-  if (over == Population::windows)
-    return bootstrap.window_error(sampled(bootstrap.blocks(dependence.block)), dependence);
-  if (over == Population::compositions)
-    return bootstrap.run_error(sampled(bootstrap.whole_runs()), dependence);
-  return runs.within_flows(influence);
-}
 
 }  // namespace grseg

@@ -439,7 +439,7 @@ std::string estimand_words(Population over, std::size_t flows)
       return fmt::format(
           "B of these layers' compositions, {}if B is one function of composition "
           "for all runs; from the scatter of runs about its regression on ln(phi_S/phi_L) and phi_L, "
-          "which is taken out before runs are drawn: how flows differ beyond it counts as "
+          "which is taken out first: how flows differ beyond it counts as "
           "scatter of runs",
           weighted);
   }

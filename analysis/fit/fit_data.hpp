@@ -3,7 +3,7 @@
 
 #include "analysis/fit/row_neighbours.hpp"
 #include "analysis/frames/layer_key.hpp"
-#include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/stress/contact_sums.hpp"
 #include "analysis/stress/partial_stress.hpp"
 #include "analysis/stress/partition_rule.hpp"

@@ -39,36 +39,30 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
 
 /// The exponent a of all points together, without distinction of flows.
 Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
-                         const FitSettings& settings, const Resampling& resampling)
+                         const FitSettings& settings)
 {
   const auto points = points_per_size(fit_points(data, rule, settings));
   constexpr auto exponent = &Estimators::minus_ln_s;
   const double a = estimators_of(points).*exponent;
-  if (points.empty() || resampling.samples == 0) return {a};
+  if (points.empty()) return {a};
   const auto windows = window_sums(points, data.runs);
-  const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
-    return windows.sampled(times).col(column_of(exponent));
-  };
-  return {a, error_over(resolved(settings.over, data.runs.size(), data.number_of_flows()),
-                        Bootstrap(data.runs, resampling.samples, resampling.seed),
-                        dependence(data, rule, settings), sampled,
-                        RunErrors(data, windows.weight_of_logarithms()),
-                        influence_on(exponent, windows))};
+  const auto over = resolved(settings.over, data.runs.size(), data.number_of_flows());
+  return {a,
+          Errors(data, windows.weight_of_logarithms()).over(over, influence_on(exponent, windows))};
 }
 
 }  // namespace
 
-Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                       const Resampling& resampling)
+Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
   const bool equal = settings.over == Population::equal_flows;
   if (data.number_of_flows() == 1 || (!equal && settings.over != Population::random_flows))
-    return pooled_exponent(data, rule, settings, resampling).estimate();
+    return pooled_exponent(data, rule, settings).estimate();
   auto of_one = settings;
   of_one.over = Population::automatic;
   std::vector<Measured> of_each;
   for (const auto flow : std::set(data.flows.begin(), data.flows.end()))
-    of_each.push_back(pooled_exponent(of_flow(data, flow), rule, of_one, resampling));
+    of_each.push_back(pooled_exponent(of_flow(data, flow), rule, of_one));
   const auto mean = mean_of_equals(of_each);
   return (equal ? mean.by_errors : mean.by_scatter).around(mean.value);
 }
@@ -142,11 +136,12 @@ void combine(RuleFit& all, const std::vector<RuleFit>& flows)
 
 }  // namespace
 
-FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                   const Resampling& resampling)
+FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
   const auto fit = [&](const FitData& of, const FitSettings& how) {
-    return fit_rule(of, rule, how, Bootstrap(of.runs, resampling.samples, resampling.seed));
+    auto found = fit_rule(of, rule, how);
+    if (rule.adds_up()) found.line = line_over_share(of, how, found.over);
+    return found;
   };
   FlowFits fits{fit(data, settings), {}};
   if (data.number_of_flows() == 1) return fits;
@@ -186,7 +181,7 @@ SpeciesPair parse_pair(const std::string& text, const SpeciesList& species)
 std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity quantity,
                                const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
                                const std::vector<PartitionRule>& rules, const FitSettings& settings,
-                               const Resampling& resampling, bool with_exponent)
+                               bool with_exponent)
 {
   const auto data = select_fit_data(tables, quantity, filters, pairs);
   std::vector<RuleFit> fits;
@@ -195,27 +190,18 @@ std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity qua
     for (const auto& pair : pairs) {
       auto of_pair =
           fit_flows(pairs.size() == 1 ? data : select_fit_data(tables, quantity, filters, {pair}),
-                    rule, settings, resampling);
+                    rule, settings);
       if (settings.over == Population::automatic)
         fits.insert(fits.end(), of_pair.of_each.begin(), of_pair.of_each.end());
       fits.push_back(std::move(of_pair.all));
     }
     if (!with_exponent || !rule.adds_up()) continue;
-    const auto exponent = size_exponent(data, rule, settings, resampling);
+    const auto exponent = size_exponent(data, rule, settings);
     for (auto fit = first; fit < fits.size(); ++fit)
       if (!fits[fit].flow) fits[fit].size_exponent = exponent;
   }
   return fits;
 }
-
-namespace {
-
-PartitionRule uniform(double share)
-{
-  return {PartitionRule::Kind::uniform, share};
-}
-
-}  // namespace
 
 std::vector<double> ScanRange::shares() const
 {
@@ -246,32 +232,16 @@ ScanRange parse_scan(const std::string& text)
 }
 
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
-                             const FitSettings& settings, const Bootstrap& bootstrap,
+                             const FitSettings& settings,
                              const std::function<void(double shares)>& tell)
 {
-  const auto shares = range.shares();
-  double done = 0;
-  const auto tell_half = [&] {  // two loops visit each share
-    done += 0.5;
-    if (tell) tell(done);
-  };
   PartitionScan scan;
-  const double zero =
-      line_over_share(data, settings, Bootstrap(data.runs, 0, 1), settings.over).p_zero.value;
-  const double nearest = std::isfinite(zero) ? std::clamp(zero, 0.0, 1.0) : shares.front();
-  const auto at_nearest = dependence(data, uniform(nearest), settings);
-  scan.dependence = at_nearest;
-  if (bootstrap.count() > 0)
-    for (const double share : shares) {
-      scan.dependence = worse(scan.dependence, dependence(data, uniform(share), settings));
-      tell_half();
-    }
-  scan.dependence.block = at_nearest.block;
-  for (const double share : shares) {
-    scan.fits.push_back(fit_rule(data, uniform(share), settings, bootstrap, scan.dependence));
-    tell_half();
+  double done = 0;
+  for (const double share : range.shares()) {
+    scan.fits.push_back(fit_rule(data, {PartitionRule::Kind::uniform, share}, settings));
+    if (tell) tell(++done);
   }
-  scan.line = line_over_share(data, settings, bootstrap, scan.fits.front().over);
+  scan.line = line_over_share(data, settings, scan.fits.front().over);
   return scan;
 }
 

@@ -12,12 +12,6 @@
 
 namespace grseg {
 
-/// Settings of Bootstrap (bootstrap.hpp).
-struct Resampling {
-  std::size_t samples = 0;  // number of samples; 0: no intervals
-  unsigned long seed = 1;
-};
-
 /// The exponent a of a partition of stress by a power of grain size,
 ///   sigma^nu/sigma = phi^nu s_nu^a / sum over mu of phi^mu s_mu^a,   s: nominal diameter
 /// (Marks, Rognon & Einav 2012; Tunuguntla, Bokhove & Thornton 2014). a = 0 if each species bears
@@ -27,8 +21,7 @@ struct Resampling {
 /// the origin, over the samples of all pairs in `data`. For two species a = minus_ln_s/ln r
 /// (estimators.hpp), r = d_L/d_S. Over equal or random flows a is the mean of the flows' exponents.
 /// NaN if there are no points.
-Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                       const Resampling& resampling);
+Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
 /// Fit of one rule to all flows together and to each flow; `of_each` is empty if there is only one.
 struct FlowFits {
@@ -43,8 +36,7 @@ struct FlowFits {
 /// and the flows' errors are added (confidence.hpp). For Population::random_flows the mean is the
 /// same, and its error is the scatter of the n flows' values, with n - 1 degrees of freedom.
 /// RuleFit::at() returns B for both, whatever settings.over is.
-FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                   const Resampling& resampling);
+FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
 /// Reads a pair of species from `text`, by name ("AM,SE") or by number from 1 ("1,3"). Throws
 /// UsageError if `text` does not name two of `species`.
@@ -56,7 +48,7 @@ SpeciesPair parse_pair(const std::string& text, const SpeciesList& species);
 std::vector<RuleFit> fit_pairs(const std::vector<FitTable>& tables, Quantity quantity,
                                const FitFilters& filters, const std::vector<SpeciesPair>& pairs,
                                const std::vector<PartitionRule>& rules, const FitSettings& settings,
-                               const Resampling& resampling, bool with_exponent);
+                               bool with_exponent);
 
 /// The shares p0, p0 + dp, ... up to and including p1.
 struct ScanRange {
@@ -70,16 +62,12 @@ ScanRange parse_scan(const std::string& text);
 /// B as a function of the share p.
 struct PartitionScan {
   std::vector<RuleFit> fits;  // fits under uniform:p, one per share
-  Dependence dependence;      // dependence of windows in all fits, see scan_partition
-  LineOverShare line;         // p* and dB/dp, with the dependence of windows at p*
+  LineOverShare line;         // p* and dB/dp
 };
 
-/// Fits uniform:p for all shares of `range`. All shares use one block length, so that the band of
-/// B(p) has no jumps: the block length at p*, or at the share in [0, 1] nearest to p*. The
-/// autocorrelation time is the longest of all shares. `tell` is called with the number of shares
-/// done so far.
+/// Fits uniform:p for all shares of `range`. `tell` is called with the number of shares done so far.
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
-                             const FitSettings& settings, const Bootstrap& bootstrap,
+                             const FitSettings& settings,
                              const std::function<void(double shares)>& tell = {});
 
 }  // namespace grseg

@@ -141,8 +141,6 @@ void add_numbers(const FitReport& report, const RuleFit& fit, bool of_first_rule
   for (const auto& [name, place] : estimator_columns)
     if (report.with_paper && std::string(name).starts_with("paper_"))
       add(name, fit.estimate(place), fit.over);
-  add("effective_windows", {fit.dependence.effective_windows});
-  add("autocorrelation_time[windows]", {fit.dependence.time});
   if (!of_first_rule) return;
   rule = "-";
   // Phi_L of several flows together is unknown: tables do not include the sizes of the beds.

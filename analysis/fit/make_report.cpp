@@ -100,9 +100,6 @@ po::options_description FitOptions::description()
   add("flows", text(flows, "N,N,...")->default_value("auto"),
       "number of tables of each flow, in the order of the tables; auto: tables are of one flow if "
       "their headers and overall compositions agree");
-  add("bootstrap", number(bootstrap, "N")->default_value(1000),
-      "number of bootstrap samples for the 95 % intervals; 0: no intervals");
-  add("seed", number(seed, "N")->default_value(1), "seed of the random numbers for these samples");
   add("ratio-range", text(ratio_range, "a:b")->default_value("0.01:100"),
       "range of phi_S/phi_L of the layers to use");
   filters.add_layers_to(options);
@@ -119,9 +116,6 @@ void FitOptions::check(const po::variables_map& values)
 {
   if (!values.contains("input"))
     throw UsageError("no table given; name tables of grseg-stress, or - for standard input");
-  if (bootstrap != 0 && (bootstrap < 100 || bootstrap > 100000))
-    throw UsageError(fmt::format("--bootstrap {}: 0, or 100 to 100000 samples", bootstrap));
-  if (seed < 0) throw UsageError("--seed must not be negative");
   output.check(values);
   filters.check();
   if (!over.empty()) choose(over, "--over", populations);
@@ -223,20 +217,17 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
   return add_all(header, {{"rows", data.count.sentence()},
                           {"runs", fmt::format("{}", data.runs.size())},
                           {"windows", fmt::format("{}", number_of_windows(data.runs))},
-                          {"bootstrap", fmt::format("{}", s.bootstrap)},
-                          {"seed", fmt::format("{}", s.seed)},
                           {"interval", "95 %"},
                           {"over", over_words(report)},
                           {"flows", grouping_words(s.flows, tables)}});
 }
 
 PartitionScan scan(const char* program, const FitData& data, const ScanRange& range,
-                   const FitSettings& settings, const Bootstrap& bootstrap, bool quiet)
+                   const FitSettings& settings, bool quiet)
 {
   const auto shares = static_cast<double>(range.shares().size());
   ProgressBar progress(program, {.things = "shares", .total = shares}, quiet);
-  return scan_partition(data, range, settings, bootstrap,
-                        [&](double done) { progress.show(done); });
+  return scan_partition(data, range, settings, [&](double done) { progress.show(done); });
 }
 
 }  // namespace
@@ -264,10 +255,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
   require_population(s, data);
   report.shares = weight_shares(data, report.flows.size());
-  const Resampling resampling{static_cast<std::size_t>(s.bootstrap),
-                              static_cast<unsigned long>(s.seed)};
-  const Bootstrap bootstrap(data.runs, resampling.samples, resampling.seed);
-  report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings, resampling,
+  report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings,
                            s.exponent || report.names_pairs());
   if (!s.minus.empty()) {
     const auto others = listed(s.minus, [](const auto& path) { return Table::read(path); });
@@ -275,14 +263,13 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
     auto read_otherwise = read_fit_tables(others, report.quantity, rules);
     find_flows(read_otherwise, s.flows);
     add_differences(report.rules, {all, report.quantity, s.filters},
-                    {read_otherwise, report.quantity, s.filters}, settings, resampling);
+                    {read_otherwise, report.quantity, s.filters}, settings);
     for (const auto& table : others) report.other_names.push_back(table.name);
   }
-  if (!s.scan.empty())
-    report.scan = scan(info.name, data, parse_scan(s.scan), settings, bootstrap, s.quiet);
+  if (!s.scan.empty()) report.scan = scan(info.name, data, parse_scan(s.scan), settings, s.quiet);
   report.with_paper = s.fit == "paper";
   report.number_of_runs = data.runs.size();
-  report.number_of_windows = bootstrap.windows();
+  report.number_of_windows = number_of_windows(data.runs);
 
   report.header = header_of(info, s, preset, tables, report, data);
   if (report.quantity == Quantity::contact) report.header.emplace_back("base", base);
@@ -294,9 +281,8 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
       report.doubts_of_tables.push_back(line.second);
     else
       report.trust.push_back(std::move(line));
-  if (resampling.samples > 0)
-    for (auto& doubt : doubts_of_tables(tables, all, data))
-      report.doubts_of_tables.push_back(std::move(doubt));
+  for (auto& doubt : doubts_of_tables(tables, all, data))
+    report.doubts_of_tables.push_back(std::move(doubt));
   if (const auto doubt = doubt_of_start(data, rules.front(), settings); !doubt.empty())
     report.doubts_of_tables.push_back(doubt);
   if (const auto doubt = doubt_of_change(data, rules.front(), settings); !doubt.empty()) {

@@ -19,8 +19,6 @@ struct FitOptions {
   std::string base, scan, ratio_range, pair, over, flows, fit;
   std::vector<std::string> minus;
   TableOptions output;
-  int bootstrap = 0;
-  long seed = 0;
   bool json = false, quiet = false, exponent = false;
   FitFilters filters;
 

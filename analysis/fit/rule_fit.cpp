@@ -19,28 +19,20 @@ void remove_b(RuleFit& fit)
 
 /// Sets the intervals of all estimators over fit.over, and B over every population that the data
 /// allow.
-void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows,
-                   const Bootstrap& bootstrap)
+void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows)
 {
-  const RunErrors of_b(data, windows.weight()), of_logarithms(data, windows.weight_of_logarithms());
-  const Eigen::MatrixXd of_blocks = windows.sampled(bootstrap.blocks(fit.dependence.block)),
-                        of_runs = windows.sampled(bootstrap.whole_runs());
+  const Errors of_b(data, windows.weight()), of_logarithms(data, windows.weight_of_logarithms());
   for (const auto& [name, place] : estimator_columns) {
-    const auto& runs = place == &Estimators::B ? of_b : of_logarithms;
+    const auto& errors = place == &Estimators::B ? of_b : of_logarithms;
     const auto influence = influence_on(place, windows);
-    const auto sampled = [&, column = column_of(place)](const auto& times) -> Eigen::VectorXd {
-      return (&times == &bootstrap.whole_runs() ? of_runs : of_blocks).col(column);
-    };
-    const auto error = [&](Population over) {
-      return error_over(over, bootstrap, fit.dependence, sampled, runs, influence);
-    };
-    set_error(fit, place, error(fit.over));
+    set_error(fit, place, errors.over(fit.over, influence));
     if (place != &Estimators::B) continue;
-    fit.at(Population::windows) = error(Population::windows).around(fit.value.B);
-    if (fit.runs < 2) continue;
-    for (const auto over : {Population::compositions,
-                            data.number_of_flows() > 1 ? Population::flows : Population::runs})
-      fit.at(over) = error(over).around(fit.value.B);
+    std::vector<Population> known{Population::windows};
+    if (fit.runs > 1)
+      known.insert(known.end(),
+                   {Population::compositions,
+                    data.number_of_flows() > 1 ? Population::flows : Population::runs});
+    for (const auto over : known) fit.at(over) = errors.over(over, influence).around(fit.value.B);
   }
 }
 
@@ -56,20 +48,20 @@ double degrees_taken_by_composition(const FitData& data)
 }
 
 /// Warning about the interval of B, usually "".
-std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows,
-                     const Bootstrap& bootstrap)
+std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows)
 {
   if (!std::isfinite(fit.value.B))
     return fmt::format("no species bears a stress in any of the {} layers and windows", fit.points);
-  if (bootstrap.count() == 0) return {};
-  if (fit.over == Population::windows) return bootstrap.doubt_of_windows(fit.dependence);
+  const Eigen::VectorXd weight = windows.weight();
+  if (fit.over == Population::windows)
+    return doubt_of_windows(windows.excess_noise(), weight, data.runs);
   const auto flows = data.number_of_flows();
-  if (flows == 1) return bootstrap.doubt_of_runs(fit.dependence);
-  const RunErrors errors(data, windows.weight());
+  if (flows == 1) return doubt_of_runs(by_run(weight, data.runs));
+  const Errors errors(data, weight);
   if (fit.over == Population::compositions) {
     const double chance = errors.chance_of_likeness(influence_on(&Estimators::B, windows).noise,
                                                     degrees_taken_by_composition(data));
-    if (chance >= 0.05) return bootstrap.doubt_of_runs(fit.dependence);
+    if (chance >= 0.05) return doubt_of_runs(by_run(weight, data.runs));
     return fmt::format(
         "flows differ by more than one function of composition explains (Fisher's test: {:.2g}): "
         "the interval over compositions is too wide for these flows and too narrow for others; "
@@ -152,14 +144,7 @@ void add_doubt(RuleFit& fit, const std::string& doubt)
   fit.doubt += doubt;
 }
 
-Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
-{
-  return dependence(window_sums(fit_points(data, rule, settings), data.runs), data.runs,
-                    rule.adds_up());
-}
-
-RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                 const Bootstrap& bootstrap, const std::optional<Dependence>& common)
+RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
   const auto points = fit_points(data, rule, settings);
   const auto windows = window_sums(points, data.runs);
@@ -168,11 +153,10 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.pair = data.samples.front().pair;
   fit.points = points.size();
   fit.value = estimators_of(points);
-  fit.dependence = common ? *common : dependence(windows, data.runs, rule.adds_up());
   fit.runs = data.runs.size();
   fit.over = resolved(settings.over, fit.runs, data.number_of_flows());
-  if (bootstrap.count() > 0) add_intervals(fit, data, windows, bootstrap);
-  fit.doubt = doubt_of(fit, data, windows, bootstrap);
+  add_intervals(fit, data, windows);
+  fit.doubt = doubt_of(fit, data, windows);
   if (!rule.adds_up()) {
     remove_b(fit);
     return fit;
@@ -180,28 +164,20 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   fit.of_thickness = part_of_thickness(data, rule, settings);
   add_doubt(fit, doubt_of_thickness(fit, settings));
   if (data.quantity == Quantity::kinetic) return fit;
-  fit.minus_size =
-      minus(fit, data, windows, fit_points(data, PartitionRule{}, settings), bootstrap);
+  fit.minus_size = minus(fit, data, windows, fit_points(data, PartitionRule{}, settings));
   if (data.species.size() > 2) return fit;
   fit.share = share_of_large(data, points, settings);
   fit.neutral = neutral_mean(points, rule);
-  if (!common) fit.line = line_over_share(data, settings, bootstrap, fit.over);
   return fit;
 }
 
 Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& windows,
-               const std::vector<FitPoint>& others, const Bootstrap& bootstrap)
+               const std::vector<FitPoint>& others)
 {
-  const double difference = fit.value.B - estimators_of(others).B;
-  if (bootstrap.count() == 0) return {difference};
   constexpr auto b = &Estimators::B;
-  const auto of_others = window_sums(others, data.runs);
-  const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
-    return windows.sampled(times).col(column_of(b)) - of_others.sampled(times).col(column_of(b));
-  };
-  return {difference, error_over(fit.over, bootstrap, fit.dependence, sampled,
-                                 RunErrors(data, windows.weight()),
-                                 influence_on(b, windows) - influence_on(b, of_others))};
+  const auto influence = influence_on(b, windows) - influence_on(b, window_sums(others, data.runs));
+  return {fit.value.B - estimators_of(others).B,
+          Errors(data, windows.weight()).over(fit.over, influence)};
 }
 
 namespace {
@@ -248,9 +224,8 @@ double zero_of_b(const FitData& data, const FitSettings& settings)
 
 // Influence of a window w is E_w/(-dE/dp) on p* and (dE_w/dp - dB/dp Q_w)/Q on dB/dp. E is the sum
 // of psi_L - phi_L over frames and layers, Q the sum of phi_L phi_S; E_w and Q_w are sums over w.
-// RunErrors subtracts multiples of the weights Q_w itself.
-LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
-                              const Bootstrap& bootstrap, Population over)
+// Errors subtracts multiples of the weights Q_w itself.
+LineOverShare line_over_share(const FitData& data, const FitSettings& settings, Population over)
 {
   if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
   const double zero = zero_of_b(data, settings);
@@ -258,18 +233,11 @@ LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
   const auto at = at_share(data, zero, settings);
   const Eigen::VectorXd weight = at.value.weight();
   const double change = at.derivative.excess().sum(), slope = change / weight.sum();
-  if (bootstrap.count() == 0) return {{zero}, {slope}};
-  const auto how_dependent = dependence(at.value, data.runs, true);
-  const RunErrors run_errors(data, weight);
-  const auto error = [&](const Influence& influence) {
-    const auto sampled = [&](const Eigen::MatrixXd& times) -> Eigen::VectorXd {
-      return times * influence.noise;
-    };
-    return error_over(over, bootstrap, how_dependent, sampled, run_errors, influence);
-  };
-  return {{zero, error({at.value.excess() / -change, at.value.excess_noise() / -change})},
-          {slope, error({at.derivative.excess() / weight.sum(),
-                         at.derivative.excess_noise() / weight.sum()})}};
+  const Errors errors(data, weight);
+  return {
+      {zero, errors.over(over, {at.value.excess() / -change, at.value.excess_noise() / -change})},
+      {slope, errors.over(over, {at.derivative.excess() / weight.sum(),
+                                 at.derivative.excess_noise() / weight.sum()})}};
 }
 
 }  // namespace grseg

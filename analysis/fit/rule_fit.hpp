@@ -4,7 +4,6 @@
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/bootstrap.hpp"
 #include "analysis/statistics/confidence.hpp"
 
 #include <array>
@@ -50,14 +49,10 @@ struct RuleFit {
   double of_thickness = no_number;  // B of the layers' means minus B (Thickness)
   Measured minus_size = {};         // B minus B by size, from the same samples
   Measured minus_other = {};  // B minus B of another reading of the same runs (two_readings.hpp)
-  Dependence dependence;      // dependence of the windows in B (confidence.hpp)
   std::string doubt;          // warnings about the intervals, usually empty
   SpeciesPair pair = {};
   std::optional<Estimate> size_exponent = {};  // exponent over all pairs (fit_pairs.hpp)
 };
-
-/// Correlation between B of successive windows under this rule (confidence.hpp).
-Dependence dependence(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
 /// Stores the error and the interval of an estimator in `fit`.
 void set_error(RuleFit& fit, double Estimators::*place, const StandardError& error);
@@ -70,19 +65,16 @@ std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::siz
 void add_doubt(RuleFit& fit, const std::string& doubt);
 
 /// Fits one rule. For `drop` every B is NaN, because its partial stresses do not add up to the
-/// whole. `common`: dependence of windows that several fits share; if empty, it is computed for
-/// this rule. Intervals over equal or random flows are added by fit_flows (fit_pairs.hpp).
-RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings,
-                 const Bootstrap& bootstrap, const std::optional<Dependence>& common = {});
+/// whole. The line, and intervals over equal or random flows, are added by fit_flows (fit_pairs.hpp).
+RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
-/// B of the fit minus B of `others`, points in the same windows: from the same samples, over the
-/// population of the fit. `windows` are sums of the fit's own points.
+/// B of the fit minus B of `others`, points in the same windows, over the population of the fit.
+/// `windows` are sums of the fit's own points.
 Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& windows,
-               const std::vector<FitPoint>& others, const Bootstrap& bootstrap);
+               const std::vector<FitPoint>& others);
 
 /// p* and dB/dp, for contact stress and two species; otherwise NaN. Errors are over the population
-/// `over`, with the dependence of windows at p*.
-LineOverShare line_over_share(const FitData& data, const FitSettings& settings,
-                              const Bootstrap& bootstrap, Population over);
+/// `over`.
+LineOverShare line_over_share(const FitData& data, const FitSettings& settings, Population over);
 
 }  // namespace grseg

@@ -62,7 +62,7 @@ void require_same_runs(const std::vector<Table>& tables, const std::vector<Table
 }
 
 void add_differences(std::vector<RuleFit>& fits, const FitSource& source, const FitSource& other,
-                     const FitSettings& settings, const Resampling& resampling)
+                     const FitSettings& settings)
 {
   for (auto& fit : fits) {
     if (fit.over == Population::equal_flows || fit.over == Population::random_flows)
@@ -75,9 +75,7 @@ void add_differences(std::vector<RuleFit>& fits, const FitSource& source, const 
     const auto windows = window_sums(points, data.runs);
     auto of_common = fit;
     of_common.value = estimators_of(points);
-    of_common.dependence = dependence(windows, data.runs, fit.rule.adds_up());
-    fit.minus_other = minus(of_common, data, windows, others,
-                            Bootstrap(data.runs, resampling.samples, resampling.seed));
+    fit.minus_other = minus(of_common, data, windows, others);
   }
 }
 

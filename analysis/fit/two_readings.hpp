@@ -27,6 +27,6 @@ struct FitSource {
 /// readings have, over the population of each fit. Throws UsageError if they have no window in
 /// common, or if a fit is over equal or random flows.
 void add_differences(std::vector<RuleFit>& fits, const FitSource& source, const FitSource& other,
-                     const FitSettings& settings, const Resampling& resampling);
+                     const FitSettings& settings);
 
 }  // namespace grseg

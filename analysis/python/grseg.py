@@ -1389,14 +1389,14 @@ class Points:
         share = zero = slope = math.nan
         of_b = of_zero = of_slope = (math.nan, math.nan), math.nan
         if adds_up:
-            of_b = self._interval(b, excess, self._b_weight[total > 0].sum(), excess)
+            of_b = self._interval(b, excess, self._b_weight[total > 0].sum())
         if self.quantity == "contact" and len(self.tables[0].species) == 2:
             zero, at_zero, change = self._zero()
             weight, gain = self._b_weight[np.isfinite(at_zero)].sum(), np.nansum(self.frames * change)
             slope = float(gain / weight) if gain else math.nan
             if adds_up and gain:
-                of_zero = self._interval(zero, at_zero, -gain, at_zero)
-                of_slope = self._interval(slope, change, weight, at_zero)
+                of_zero = self._interval(zero, at_zero, -gain)
+                of_slope = self._interval(slope, change, weight)
             if adds_up:
                 none, everything = (self._b_at(p) for p in (0.0, 1.0))
                 share = (b - none) / (everything - none) if everything != none else math.nan
@@ -1591,12 +1591,12 @@ class Points:
         noise = weight * _composition_noise(self.phi_large[ok], self.frames[ok] * excess[ok] / weight, weight)
         return np.bincount(window, noise, count), np.bincount(window, weight, count)
 
-    def _interval(self, value, excess, per, like):
-        """Interval and degrees of freedom of a number to which each point contributes frames * excess / per. The
-        dependence between windows is that of B with the excess `like`."""
+    def _interval(self, value, excess, per):
+        """Interval and degrees of freedom of a number to which each point contributes frames * excess / per."""
         error, degrees, ok = math.nan, math.nan, np.isfinite(excess)
         if self.over == "windows" and ok.any():
-            error, degrees = _error_over_windows(self._noise(excess)[0] / per, *self._noise(like))
+            noise, weight = self._noise(excess)
+            error, degrees = _error_over_windows(noise / per, weight)
         elif self.over == "runs":
             parts = np.bincount(self.run[ok], (self.frames * excess)[ok]) / per
             error, degrees = _error_over_runs(parts, np.bincount(self.run[ok], self._b_weight[ok]))
@@ -1633,51 +1633,27 @@ def _composition_noise(phi, value, weight):
     return value - basis @ np.linalg.lstsq(root[:, None] * basis, root * value, rcond=1e-6)[0]
 
 
-def _autocorrelation_time(series):
-    """Autocorrelation time in windows, at least 1 (analysis/statistics/confidence.hpp)."""
+def _neighbours(series):
+    """Correlation of neighbours, at least 0, corrected for its bias (analysis/statistics/correlated_windows.hpp)."""
     n, rest = len(series), series - series.mean()
-    square = rest @ rest
-    if not square > 0:
-        return 1.0
-    summed, lag, of_neighbours = 1.0, 1, 1.0
-    while lag < n:
-        summed += 2 * (rest[:-lag] @ rest[lag:]) / square
-        if lag >= 5 * summed:
-            break
-        lag += 1
-    if n >= 4:
-        rho = min((n * (rest[:-1] @ rest[1:]) / square + 1) / (n - 3), 1 - 2 / n)
-        of_neighbours = (1 + rho) / (1 - rho)
-    return max(1.0, summed * (1 + (2 * lag + 1) / n), of_neighbours)
+    if n < 4 or not rest @ rest > 0:
+        return 0.0
+    return max(0.0, min((n * (rest[:-1] @ rest[1:]) / (rest @ rest) + 1) / (n - 3), 1 - 2 / n))
 
 
-def _error_over_windows(parts, like, weight):
-    """Standard error and degrees of freedom of a sum over the windows of one run, from a thousand samples of blocks of
-    windows. The block length follows from the series `like` (analysis/statistics/bootstrap.hpp)."""
-    n, time = len(parts), _autocorrelation_time(like)
-    rho = (time - 1) / (time + 1)
-    best = (math.sqrt(6) * rho / (1 - rho**2))**(2 / 3) * n**(1 / 3)
-    block = max(1, min(math.ceil(best), n // 2))
-    degrees = weight.sum()**2 / (weight**2).sum() / block - 1
-    if degrees < 0.5:
-        return math.nan, degrees
-    samples, blocks = 1000, -(-n // block)
-    begin = _draw(samples * blocks, n - block + 1).reshape(samples, blocks)
-    end = begin + block
-    end[:, -1] -= blocks * block - n
-    sums = np.append(0.0, np.cumsum(parts))
-    variance = (sums[end] - sums[begin]).sum(axis=1).var(ddof=1)
-    kept = 1 - 2 * rho * (1 - rho**block) / (block * (1 - rho**2))
-    return math.sqrt(variance * (degrees + 1) / degrees / kept), degrees
-
-
-def _draw(count, below):
-    """Whole numbers from 0 to below - 1, equal to those of GSL's mt19937 with seed 1."""
-    scale, random, drawn = 0xffffffff // below, np.random.RandomState(1), np.empty(0, int)
-    while len(drawn) < count:
-        more = random.randint(0, 1 << 32, count, np.uint32).astype(int) // scale
-        drawn = np.append(drawn, more[more < below])
-    return drawn[:count]
+def _error_over_windows(parts, weight):
+    """Standard error and degrees of freedom of a sum over the windows of one run, from slow cosine waves
+    (deviation_of_windows in analysis/statistics/correlated_windows.hpp)."""
+    n, whole, rho = len(parts), weight.sum(), _neighbours(parts)
+    if n < 2:
+        return math.nan, 0
+    number = min(n - 1, max(2, (whole**2 / (weight**2).sum())**(2 / 3) / 4))
+    wave = np.arange(1, math.ceil(number) + 1)
+    share = np.minimum(1, number + 1 - wave) / number
+    phase = math.pi * (np.cumsum(weight) - weight / 2) / whole
+    sums = np.cos(np.outer(wave, phase)) @ (parts - parts.sum() / whole * weight)
+    kept = share @ ((1 - rho)**2 / (1 - 2 * rho * np.cos(math.pi * wave / n) + rho**2))
+    return math.sqrt(2 * (share @ sums**2) / kept), 1 / (share @ share)
 
 
 def _error_over_runs(parts, weight):

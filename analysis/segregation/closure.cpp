@@ -2,8 +2,7 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/bootstrap.hpp"
-#include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
@@ -24,19 +23,9 @@ constexpr double collinear = 0.95;
 /// A number that is linear in the noise of the windows.
 struct Linear {
   double value = no_number;
-  Eigen::VectorXd influence;       // contribution of each window's noise to the number
-  Eigen::VectorXd weight;          // weight of each window in the number
-  std::vector<Linear> parts = {};  // numbers from which this one was computed
+  Eigen::VectorXd influence;  // contribution of each window's noise to the number
+  Eigen::VectorXd weight;     // weight of each window in the number
 };
-
-/// The worst dependence of windows in `of` and in its parts. Noises of two parts may cancel and so
-/// hide a correlation in time.
-Dependence dependence_of(const Linear& of, const RunLengths& runs)
-{
-  auto how = dependence(of.influence, of.weight, runs);
-  for (const auto& part : of.parts) how = worse(how, dependence_of(part, runs));
-  return how;
-}
 
 /// A function of several numbers, with its value, and its derivative by each number.
 Linear combined(double value, const std::vector<std::pair<double, const Linear*>>& parts)
@@ -44,10 +33,6 @@ Linear combined(double value, const std::vector<std::pair<double, const Linear*>
   Linear of{value, Eigen::VectorXd::Zero(parts.front().second->influence.size()),
             parts.front().second->weight};
   for (const auto& [derivative, part] : parts) of.influence += derivative * part->influence;
-  constexpr double none = 1e-6;  // relative norm below which the noise of a part is neglected
-  for (const auto& [derivative, part] : parts)
-    if (std::abs(derivative) * part->influence.norm() > none * of.influence.norm())
-      of.parts.push_back(*part);
   return of;
 }
 
@@ -166,17 +151,9 @@ class Regressions {
 /// Collects the numbers in the order of printing, with their intervals.
 class Report {
  public:
-  Report(const ClosureData& data, const ClosureResampling& resampling)
-      : bootstrap_(data.runs, resampling.samples, resampling.seed)
-  {
-  }
+  explicit Report(const ClosureData& data) : runs_(data.runs) {}
 
-  Estimate estimate(const Linear& of) const
-  {
-    if (bootstrap_.count() == 0 || !std::isfinite(of.value)) return {of.value};
-    const auto how = dependence_of(of, bootstrap_.runs());
-    return bootstrap_.estimate(of.value, sampled(of, how), how);
-  }
+  Estimate estimate(const Linear& of) const { return deviation(of).error().around(of.value); }
   void add(const std::string& name, const Linear& of)
   {
     summary.numbers.emplace_back(name, estimate(of));
@@ -188,31 +165,28 @@ class Report {
   /// Correlation between the errors of two numbers.
   double correlation(const Linear& a, const Linear& b) const
   {
-    if (bootstrap_.count() == 0) return no_number;
-    const auto how =
-        worse(dependence_of(a, bootstrap_.runs()), dependence_of(b, bootstrap_.runs()));
-    const auto centred = [&](const Linear& of) -> Eigen::VectorXd {
-      const Eigen::VectorXd samples = sampled(of, how);
-      return samples.array() - samples.mean();
-    };
-    const Eigen::VectorXd x = centred(a), y = centred(b);
-    return x.dot(y) / std::sqrt(x.squaredNorm() * y.squaredNorm());
+    const Eigen::VectorXd x = deviation(a).parts, y = deviation(b).parts;
+    return x.size() == 0 ? no_number : x.dot(y) / (x.norm() * y.norm());
   }
   void add_doubt(const Linear& of)
   {
-    const auto doubt = bootstrap_.doubt(dependence_of(of, bootstrap_.runs()));
+    const auto doubt = runs_.size() > 1 ? doubt_of_runs(by_run(of.weight, runs_))
+                                        : doubt_of_windows(of.influence, of.weight, runs_);
     if (!doubt.empty()) summary.remarks.push_back(doubt);
   }
 
   NamedNumbers summary;
 
  private:
-  Eigen::VectorXd sampled(const Linear& of, const Dependence& how) const
+  /// Over runs if there are several, over windows if there is one.
+  Deviation deviation(const Linear& of) const
   {
-    return (bootstrap_.samples(how) * of.influence).array() + of.value;
+    return runs_.size() > 1
+               ? deviation_of_runs(by_run(of.influence, runs_), by_run(of.weight, runs_))
+               : deviation_of_windows(of.influence, of.weight, runs_);
   }
 
-  Bootstrap bootstrap_;
+  RunLengths runs_;
 };
 
 void add_collinearity(Report& report, const Regressions& regressions,
@@ -312,10 +286,9 @@ void add_rules(Report& report, const Regressions& regressions,
 
 }  // namespace
 
-NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
-                             const ClosureResampling& resampling)
+NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules)
 {
-  Report report(data, resampling);
+  Report report(data);
   const Regressions regressions(data);
   if (regressions.is_singular()) {
     report.add("B_over_c[s]", no_number);
@@ -364,12 +337,11 @@ FluxCoefficients flux_coefficients(const ClosureData& data)
   return {flux[0].value, flux[1].value, d / weight, d2 / weight};
 }
 
-Estimate estimate_from_flux(const ClosureData& data, const ClosureResampling& resampling,
-                            double value, const std::array<double, 2>& slopes)
+Estimate estimate_from_flux(const ClosureData& data, double value,
+                            const std::array<double, 2>& slopes)
 {
   const auto flux = Regressions(data).on_both([](const ClosurePoint& p) { return p.flux; });
-  return Report(data, resampling)
-      .estimate(combined(value, {{slopes[0], &flux[0]}, {slopes[1], &flux[1]}}));
+  return Report(data).estimate(combined(value, {{slopes[0], &flux[0]}, {slopes[1], &flux[1]}}));
 }
 
 std::string closure_population(std::size_t runs)

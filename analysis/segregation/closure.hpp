@@ -12,12 +12,6 @@
 
 namespace grseg {
 
-/// Settings of the bootstrap for intervals (bootstrap.hpp).
-struct ClosureResampling {
-  std::size_t samples = 1000;  // number of samples; 0: no intervals
-  unsigned long seed = 1;
-};
-
 /// Coefficients of Gray & Thornton's closure (symbols: closure_points.hpp), by weighted regression
 /// of the noisy flux q_L on the driving X and the gradient G, without a constant:
 ///
@@ -46,11 +40,10 @@ struct ClosureResampling {
 /// the two tables agree; tau_X and tau_G[m^2/s^2] with their parts; p_zero and dc_dp[1/s]; and for
 /// each rule B@RULE, c@RULE[1/s], d@RULE[m^2/s^2], also with kinetic terms kept.
 ///
-/// Intervals are 95 %: moving blocks of windows are drawn for one run, whole runs for several. All
-/// runs are one population, whatever their mixtures (grseg-fit distinguishes mixtures). Errors are
-/// linear in the noise of the flux at fixed regressors. A missing interval is NaN.
-NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules,
-                             const ClosureResampling& resampling);
+/// Intervals are 95 %: over the windows of one run, or over several runs. All runs are one
+/// population, whatever their mixtures (grseg-fit distinguishes mixtures). Errors are linear in the
+/// noise of the flux at fixed regressors. A missing interval is NaN.
+NamedNumbers closure_summary(const ClosureData& data, const std::vector<PartitionRule>& rules);
 
 /// Coefficients of the flux, to predict other runs: q_L = (B/c) X - (d/c) G over all points, and the
 /// means of the shear rate of the bed times d and times d^2, with d = phi_S d_S + phi_L d_L and the
@@ -64,8 +57,8 @@ struct FluxCoefficients {
 FluxCoefficients flux_coefficients(const ClosureData& data);
 
 /// A number with these derivatives by B/c and d/c, and the interval due to their errors.
-Estimate estimate_from_flux(const ClosureData& data, const ClosureResampling& resampling,
-                            double value, const std::array<double, 2>& slopes);
+Estimate estimate_from_flux(const ClosureData& data, double value,
+                            const std::array<double, 2>& slopes);
 
 /// The population of the intervals for this number of runs, as a sentence without its full stop.
 std::string closure_population(std::size_t runs);

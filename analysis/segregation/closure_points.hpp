@@ -4,7 +4,7 @@
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/cli/table.hpp"
 #include "formats/cli/words.hpp"

@@ -2,7 +2,7 @@
 #include "analysis/segregation/rates.hpp"
 
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/confidence.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 #include "analysis/statistics/least_squares.hpp"
 #include "formats/core/errors.hpp"

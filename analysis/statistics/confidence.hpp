@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace grseg {
@@ -38,26 +39,29 @@ struct Measured {
   Estimate estimate() const { return error.around(value); }
 };
 
-/// Error of a statistic that deviates from its expectation by the sum of `influence`, one entry per
-/// observation of a run, in order of time. `fitted` parameters were fitted to these n observations:
-///   error^2 = tau sum influence^2 / (1 - fitted tau/n),  degrees = n/tau - fitted,
-/// with tau the integrated autocorrelation time of the influence (autocorrelation_time). NaN and 0
-/// degrees below least_degrees.
-StandardError standard_error(const Eigen::VectorXd& influence, int fitted);
-
 /// Error of a statistic whose observations scatter independently about a slow trend. Successive
 /// differences (von Neumann 1941) leave the trend out: error^2 = n/(n - 1) sum (difference)^2/2
 /// with 2 (n - 1)/3 degrees of freedom.
 StandardError error_about_trend(const Eigen::VectorXd& influence);
 
-/// Errors from whole runs, each of which is one observation.
+/// Independent parts of the deviation of a statistic from its expectation. The sum of their squares
+/// estimates the variance of the statistic, and their products its covariance with another one.
+struct Deviation {
+  Eigen::VectorXd parts;
+  double degrees = 0;
 
-/// Error of a statistic that deviates from its expectation by the sum of `influence`, one entry per
-/// run of a mixture. If runs were equal, influences would be in proportion to the `weight` W; e is
-/// the difference from this. With runs worth m = (sum W)^2/sum W^2 runs of equal weight,
+  StandardError error() const { return {degrees > 0 ? parts.norm() : no_number, degrees}; }
+};
+
+/// Number of equally weighted terms that terms of these weights are worth: (sum w)^2/sum w^2.
+double effective_number(const Eigen::VectorXd& weight);
+
+/// Deviation of a statistic by how runs differ: `influence` has one entry per run of a mixture. If
+/// runs were equal, influences would be in proportion to the `weight` W; e is the difference from
+/// this. With runs worth m = (sum W)^2/sum W^2 runs of equal weight,
 ///   error^2 = m/(m - 1) sum e^2,  e = influence - (sum influence) W/sum W,  degrees = m - 1.
-/// NaN and 0 degrees for a single run.
-StandardError scatter_of_runs(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight);
+/// No parts for a single run.
+Deviation deviation_of_runs(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight);
 
 /// Error of a sum of independent parts: error^2 = sum error_k^2, with degrees by Satterthwaite
 /// (1946) from unbiased fourth powers, which matters if parts have one degree each (Welch 1947):
@@ -77,10 +81,6 @@ struct MeanOfEquals {
 };
 MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers);
 
-/// Number of windows of each run. A series has the windows of all runs, one run after the other.
-using RunLengths = std::vector<std::size_t>;
-std::size_t number_of_windows(const RunLengths& runs);
-
 /// Index of a window in a vector of Eigen.
 inline Eigen::Index index(std::size_t window)
 {
@@ -97,36 +97,7 @@ Eigen::VectorXd numbers_of(const List& list, const Of& of)
   return numbers;
 }
 
-/// Correlation between the windows of a series, and effective numbers of windows and runs.
-struct Dependence {
-  double time = 1;               // integrated autocorrelation time in windows, at least 1
-  std::size_t block = 1;         // number of consecutive windows that are drawn together
-  double effective_windows = 0;  // (sum b)^2 / sum b^2 for the windows' weights b
-  double effective_runs = 0;     // (sum b)^2 / sum b^2 for the runs' weights b
-
-  double independent_windows() const { return effective_windows / time; }
-};
-
-/// Integrated autocorrelation time in windows, 1 + 2 sum of the autocorrelation function of all
-/// runs, each about its own mean. It is the largest of 1 and two estimates: the sum to the first
-/// lag >= 5 times the result (Madras & Sokal 1988), corrected for the subtracted mean (Wolff 2004);
-/// and (1 + rho)/(1 - rho), rho being the neighbours' correlation without its bias (Kendall 1954).
-double autocorrelation_time(const Eigen::VectorXd& series, const RunLengths& runs);
-
-/// Correlation rho of neighbours in an AR(1) series with autocorrelation time (1 + rho)/(1 - rho).
-double neighbour_correlation(double time);
-
-/// Length of blocks, in windows, with the least error of the variance for an AR(1) series of the
-/// same autocorrelation time tau: (sqrt(6) rho/(1 - rho^2))^(2/3) n^(1/3), rho = (tau - 1)/(tau +
-/// 1), n windows per run (Carlstein 1986). At least 1, and so short that blocks outnumber runs.
-std::size_t block_length(double time, const RunLengths& runs);
-
-/// Dependence of windows in a statistic. `influence`: windows' contributions to its deviation from
-/// its expectation, with sum 0; `weight`: weights of the windows in the statistic.
-Dependence dependence(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
-                      const RunLengths& runs);
-
-/// Combination of a and b that leads to the wider interval, member by member.
-Dependence worse(const Dependence& a, const Dependence& b);
+/// A warning if an interval over runs is wide because runs are few; `weight` is of the runs.
+std::string doubt_of_runs(const Eigen::VectorXd& weight);
 
 }  // namespace grseg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/statistics/exponential_approach.hpp"
 
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/statistics/least_squares.hpp"
 
 #include <gsl/gsl_multifit_nlinear.h>

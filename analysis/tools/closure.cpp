@@ -35,17 +35,10 @@ struct Settings {
   ClosureFilter filter;
   std::vector<std::string> partition;
   std::string instruments = "previous";
-  int bootstrap = 1000;
-  long seed = 1;
   std::vector<std::string> predict;
   OutputOptions profiles;
   TableOptions output;
   bool json = false, quiet = false;
-
-  ClosureResampling resampling() const
-  {
-    return {static_cast<std::size_t>(bootstrap), static_cast<unsigned long>(seed)};
-  }
 };
 
 po::options_description options_into(Settings& s)
@@ -59,9 +52,6 @@ po::options_description options_into(Settings& s)
       "instrumental variables of the regression: " + list_of(instrument_choices);
   add("instruments", word_option(&s.instruments, words_of(instrument_choices)),
       instruments.c_str());
-  add("bootstrap", po::value(&s.bootstrap)->default_value(s.bootstrap)->value_name("N"),
-      "samples for the 95 % intervals; 0: no intervals");
-  add("seed", po::value(&s.seed)->default_value(s.seed)->value_name("N"), "seed of the samples");
   add("predict", po::value(&s.predict)->multitoken()->value_name("FILES"),
       "tables of grseg-segregation of other runs: predict them from their first window by the fitted "
       "flux, and by Trewhela, Ancey & Gray (2021); put this option last");
@@ -78,9 +68,6 @@ po::options_description options_into(Settings& s)
 /// Throws UsageError for impossible option values, before any table is read.
 void check(Settings& s, const po::variables_map& values)
 {
-  if (s.bootstrap != 0 && (s.bootstrap < 100 || s.bootstrap > 100000))
-    throw UsageError(fmt::format("--bootstrap {}: it must be 0 or 100 to 100000", s.bootstrap));
-  if (s.seed < 0) throw UsageError("--seed must not be negative");
   s.output.check(values);
   s.profiles.overwrite = s.output.overwrite;
   if (!s.profiles.path.empty()) {
@@ -112,7 +99,7 @@ void predict_runs(const Settings& s, const std::vector<Table>& fitted, const Clo
   const auto predictions =
       listed(tables, [&](const Table& table) { return predict(table, coefficients, s.filter); });
   add_predictions(summary, predictions, [&](double value, const std::array<double, 2>& slopes) {
-    return estimate_from_flux(data, s.resampling(), value, slopes);
+    return estimate_from_flux(data, value, slopes);
   });
   if (s.profiles.path.empty()) return;
   auto profiles = prediction_table(predictions);
@@ -141,12 +128,10 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
                                {"rows", fmt::format("{} of {}", data.points.size(), data.rows)},
                                {"runs", fmt::format("{}", data.runs.size())},
                                {"windows", fmt::format("{}", number_of_windows(data.runs))},
-                               {"over", closure_population(data.runs.size())},
-                               {"bootstrap", fmt::format("{}", s.bootstrap)},
-                               {"seed", fmt::format("{}", s.seed)}});
+                               {"over", closure_population(data.runs.size())}});
   add_all(header, s.filter.lines());
   header.emplace_back("interval", "95 %");
-  auto summary = closure_summary(data, rules, s.resampling());
+  auto summary = closure_summary(data, rules);
   if (!s.predict.empty()) predict_runs(s, tables, data, header, summary);
   write_numbers(summary, header, info, s.output, s.json, s.quiet);
 }

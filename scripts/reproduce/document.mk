@@ -19,10 +19,8 @@ DOCUMENT ?= $(CURDIR)/../../docs/studies/reproduction.md
 ANNEX ?= $(if $(filter file,$(origin DOCUMENT)),$(DOCUMENT:.md=-annex.md))
 SPHERES ?= $(CURDIR)/../../docs/studies/three-dimensions.md
 PICTURES ?= $(CURDIR)/../../docs/studies/figures/reproduction
-BOOTSTRAP ?= 1000
 
 $(call check_names,HERE BIN TABLES WORK DOCUMENT ANNEX PICTURES SPHERES)
-$(call check_values,BOOTSTRAP)
 reduce := /usr/bin/python3 $(CURDIR)/campaign
 work := $(call absolute,$(WORK))
 bin := $(call absolute,$(BIN))
@@ -60,7 +58,7 @@ $(names:%=figures/%.png) $(names:%=figures/%.pdf): figures/%: $(work)/%
 
 inside := --heights 4dS:56dS --quiet
 # One B for all mixtures, as Staron & Phillips published it (docs/studies/uncertainty.md).
-fit = $(bin)/grseg-fit --over compositions --bootstrap $(call quote,$(BOOTSTRAP)) $(inside) --overwrite -o $@
+fit = $(bin)/grseg-fit --over compositions $(inside) --overwrite -o $@
 micro = $(bin)/grseg-derive --overwrite -o $@
 code = $(1:%=campaign/%.py) campaign/tables.py ../shared.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))
@@ -94,12 +92,12 @@ $(work)/balance-profile.tsv: $(every) $(call code,profiles) ../profile | $(work)
 $(work)/snapshots.tsv: $(every) | $(work)
 	cp $(firstword $(call of,phi0.30-s23,snapshots)) $@
 $(work)/fits.tsv: $(every) $(call code,fits) | $(work)
-	$(reduce) fits $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
+	$(reduce) fits $(tables) -o $@ --bin $(bin)
 $(work)/flows.tsv: $(work)/fits.tsv $(call code,flows)
 	$(reduce) flows $(tables) $< -o $@ --bin $(bin)
 # The tables from which choices.tsv is made are not archived; choices.tsv itself is.
 $(work)/choices.tsv: $(every) $(call code,fits) | $(work)
-	$(if $(TABLES),$(reduce) choices $(tables) -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP)),cp $(KEPT)/choices.tsv $@)
+	$(if $(TABLES),$(reduce) choices $(tables) -o $@ --bin $(bin),cp $(KEPT)/choices.tsv $@)
 # combinations.tsv needs trajectories, so it is archived.
 $(work)/combinations.tsv: $(KEPT)/combinations.tsv | $(work)
 	cp $< $@
@@ -108,7 +106,7 @@ $(work)/combined.tsv: $(work)/combinations.tsv $(call code,combinations combined
 # Spheres have tables of their own, which are archived.
 $(work)/spheres.tsv: $(KEPT)/spheres.tar.bz2 $(call code,spheres rise) | $(work)
 	rm -rf $(work)/spheres && mkdir $(work)/spheres && tar -xjf $< -C $(work)/spheres
-	$(reduce) spheres $(work)/spheres -o $@ --bin $(bin) --bootstrap $(call quote,$(BOOTSTRAP))
+	$(reduce) spheres $(work)/spheres -o $@ --bin $(bin)
 $(work)/numbers.tsv: $(every) $(call code,measures rise profiles) | $(work)
 	$(reduce) numbers $(tables) -o $@ --bin $(bin)
 

@@ -158,7 +158,8 @@ void finish(const Scene& scene, const RunOptions& options, Run<D>& run)
                            wall,
                            run.deposited_height,
                            recorder.totals(),
-                           stiffness_of(scene, recorder.totals())};
+                           stiffness_of(scene, recorder.totals()),
+                           end_of_flow(simulation, scene)};
   run.writer.add_parameters(to_parameters(summary));
   run.writer.close();
   if (!options.quiet) tell(to_text(summary, scene, simulation.world().grains));

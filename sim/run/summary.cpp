@@ -31,17 +31,23 @@ std::string grains_in_words(const Scene& scene, const Grains& grains)
   const auto count = [&](Species species) {
     return std::count(grains.species.begin(), grains.species.end(), species);
   };
+  const auto density = scene.density_ratio == 1
+                           ? fmt::format("density {:g}", scene.density)
+                           : fmt::format("densities {:g} and {:g}", scene.density,
+                                         scene.density * scene.density_ratio);
   return fmt::format(
-      "{} small {} (d_S = {:g} mm) and {} large ones (d_L = {:g} mm), {} in the boundary",
+      "{} small {} (d_S = {:g} mm) and {} large ones (d_L = {:g} mm), {} kg/m^{}, {} in the boundary",
       count(Species::small), scene.dimension == 3 ? "spheres" : "grains",
-      1e3 * scene.small_diameter, count(Species::large), 1e3 * scene.large_diameter,
-      count(Species::boundary));
+      1e3 * scene.small_diameter, count(Species::large), 1e3 * scene.large_diameter, density,
+      scene.dimension, count(Species::boundary));
 }
 
 std::string flow_in_words(const RunSummary& s, const Scene& scene)
 {
-  auto slope = gravity_of<2>(scene).norm() == 0 ? std::string("no gravity")
-                                                : fmt::format("slope {:g} degrees", scene.slope);
+  auto slope =
+      gravity_of<2>(scene).norm() == 0
+          ? std::string("no gravity")
+          : fmt::format("gravity {:g} m/s^2, slope {:g} degrees", scene.gravity, scene.slope);
   if (scene.slope_rate != 0)
     slope += fmt::format(" at t = 0, {:g} per second steeper, {:.4g} at t = {:g} s",
                          scene.slope_rate, scene.slope + scene.slope_rate * s.end, s.end);
@@ -109,6 +115,23 @@ std::string height_in_words(double height, const Scene& scene)
               fmt::format("the bed is {:.2g} % {} than the depth asked for: an attempt at another "
                           "one takes long, since its grains differ greatly",
                           100 * std::abs(off), off > 0 ? "higher" : "lower"));
+}
+
+/// How the bed moves, and a remark if it does not; "" in other geometries.
+std::string motion_in_words(const EndOfFlow& end)
+{
+  if (std::isnan(end.inertial_number)) return {};
+  auto text = line("motion",
+                   fmt::format("{:.2g} m/s on average, {:.2g} m/s at the surface; inertial number "
+                               "{:.2g}, solid fraction {:.2f}",
+                               end.mean_velocity, end.surface_velocity, end.inertial_number,
+                               end.solid_fraction));
+  if (end.is_jammed())
+    text +=
+        line("remark",
+             "the bed is at rest or creeps (inertial number below 1e-3): B would be of a jammed "
+             "bed, not of a flow; choose a steeper --slope or a longer --duration");
+  return text;
 }
 
 /// Reasons to doubt the run and remarks, one per line, with remedies.
@@ -231,6 +254,10 @@ Parameters to_parameters(const RunSummary& s)
   n["summary_largest_overlap"] = {t.largest_overlap};
   n["summary_mean_gap"] = {t.mean_gap_bearing()};
   n["summary_deposited_height"] = {s.deposited_height};
+  n["summary_mean_velocity"] = {s.end_of_flow.mean_velocity};
+  n["summary_surface_velocity"] = {s.end_of_flow.surface_velocity};
+  n["summary_inertial_number"] = {s.end_of_flow.inertial_number};
+  n["summary_solid_fraction"] = {s.end_of_flow.solid_fraction};
   n["summary_stiffness"] = {s.stiffness.stiffness};
   n["summary_rigidity"] = {s.stiffness.rigidity};
   n["summary_sound_speed"] = {s.stiffness.sound_speed};
@@ -252,6 +279,7 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
                           s.simulated, s.wall, s.wall > 0 ? s.simulated / s.wall : 0);
   text += line("grains", grains_in_words(scene, grains));
   text += line("flow", flow_in_words(s, scene));
+  text += motion_in_words(s.end_of_flow);
   text += line("accuracy", solver_in_words(s.totals, scene));
   text += line("overlap",
                fmt::format("{:.1e} d_S on average over pairs that overlap, {:.1e} d_S at most",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "formats/core/parameters.hpp"
+#include "sim/run/end_of_flow.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/run.hpp"
 #include "sim/scene/scene.hpp"
@@ -59,6 +60,7 @@ struct RunSummary {
   double deposited_height = 0;              // m, height of the deposited bed
   StepTotals totals;
   NumericalStiffness stiffness;
+  EndOfFlow end_of_flow;
 };
 
 /// Effective stiffness from the sweeps and the base pressure of a run.

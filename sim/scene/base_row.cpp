@@ -80,12 +80,14 @@ void check_that_it_holds(const Scene& scene, const char* key)
 
 /// Diameter d, in d_L, of the widest hole of a base. Its lines of touching beads are 0.866 d_L
 /// apart. A sphere of this diameter touches three beads, or two beads and the wall at the ends of x,
-/// when its centre is at the height of the beads' centres. Walls along z leave no hole (add_bead).
+/// when its centre is in the plane of the beads' centres. Walls along z leave no hole (add_bead).
+/// Lowered beads are further apart, at most by the factor `apart`.
 double widest_hole_of_lines(const Scene& scene)
 {
+  const double apart = std::hypot(1, scene.base_height_spread / scene.large_diameter);
   const bool ends = scene.lateral == Scene::Lateral::walls && scene.geometry != &drum_geometry;
   // A wall and beads at (0.433, -0.5) and (0.433, 0.5): (0.433 - d/2)^2 + 0.25 = (1 + d)^2/4.
-  return ends ? 0.201 : 2 / std::sqrt(3) - 1;
+  return (ends ? 1.201 : 2 / std::sqrt(3)) * apart - 1;
 }
 
 /// True if the geometry allows a flat base.
@@ -126,11 +128,23 @@ void check_base_of_spheres(const Scene& scene)
   if (scene.base == Scene::Base::wall) return;
   const double hole = widest_hole_of_lines(scene) * scene.large_diameter;
   const double most = widest_gap_that_holds * smallest_grain(scene);
-  require(hole <= most, "size-ratio",
+  const bool lowered = scene.base_height_spread > 0;
+  require(hole <= most, lowered ? "base-height-spread" : "size-ratio",
           fmt::format("size-ratio is {:g}: grains would fall through the boundary of large grains, "
                       "whose holes are {:.4g} m wide; the smallest grains need holes of at most "
-                      "{:.4g} m; choose a smaller size-ratio or spread{}",
-                      scene.size_ratio, hole, most, may_be_flat(scene) ? ", or base = wall" : ""));
+                      "{:.4g} m; choose a smaller {}{}",
+                      scene.size_ratio, hole, most,
+                      lowered ? "base-height-spread, size-ratio or spread" : "size-ratio or spread",
+                      may_be_flat(scene) ? ", or base = wall" : ""));
+}
+
+void lower_spheres(Boundaries& base, const Scene& scene)
+{
+  if (scene.base_height_spread == 0) return;
+  RandomNumbers random(scene.seed ^ own_stream);
+  const auto height = evenly_spaced(base.position.size(), random);
+  for (std::size_t k = 0; k < height.size(); ++k)
+    base.position[k].y() -= scene.base_height_spread * (0.5 - height[k]);
 }
 
 void add_base_row(Boundaries& to, const Scene& scene)

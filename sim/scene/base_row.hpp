@@ -27,6 +27,9 @@ void resolve_base_row(Scene& scene, const KeyGiven& given);
 /// if the smallest grain would fall through the lines.
 void check_base_of_spheres(const Scene& scene);
 
+/// Lowers each of the spheres of a base by a distance from 0 to base-height-spread, as in a row.
+void lower_spheres(Boundaries& base, const Scene& scene);
+
 /// Largest number of beads that fill the cell with a mean spacing of at least `spacing`, m.
 long beads_at_spacing(const Scene& scene, double spacing);
 

@@ -134,6 +134,7 @@ void add_bead_base(Boundaries& to, const Scene& scene, const std::vector<double>
   const double y = height_of_base_centres(scene);
   long line = 0;
   for (const double at : x) add_bead(to, scene, {at, y}, line++);
+  lower_spheres(to, scene);
   to.top = y + bead_radius(scene);
 }
 

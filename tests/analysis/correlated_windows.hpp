@@ -4,7 +4,7 @@
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/rule_fit.hpp"
 #include "analysis/frames/sums.hpp"
-#include "analysis/statistics/bootstrap.hpp"
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
 #include <gsl/gsl_integration.h>
@@ -16,8 +16,7 @@
 #include <memory>
 #include <vector>
 
-/// Windows of known correlation whose mean and B are known, with the intervals of grseg-fit and,
-/// for comparison, with plain percentiles.
+/// Windows of known correlation whose mean and B are known.
 namespace grseg::synthetic {
 
 inline Eigen::Index total_windows(const RunLengths& runs)
@@ -67,44 +66,18 @@ class Ar1 {
   double rho_;
 };
 
-/// Estimate of one number from several windows, and its intervals.
-struct Verdict {
-  double estimate = 0;
-  Estimate interval{}, plain{};  // plain: 2.5 and 97.5 % percentiles of the samples of blocks
-};
-
 inline bool holds(const Estimate& interval, double truth)
 {
   return interval.low <= truth && truth <= interval.high;
 }
 
-inline Estimate percentiles(Eigen::VectorXd samples)
+/// The mean of a series with its error over windows.
+inline Measured mean_over_windows(const Eigen::VectorXd& series, const RunLengths& runs)
 {
-  if (samples.size() == 0) return {no_number, no_number};
-  std::sort(samples.begin(), samples.end());
-  const auto tail = static_cast<Eigen::Index>(0.025 * static_cast<double>(samples.size()));
-  return {no_number, samples[tail], samples[samples.size() - 1 - tail]};
-}
-
-inline Dependence dependence_of_mean(const Eigen::VectorXd& series, const RunLengths& runs)
-{
-  return dependence(series.array() - series.mean(), Eigen::VectorXd::Ones(series.size()), runs);
-}
-
-inline Eigen::VectorXd sampled_means(const Eigen::MatrixXd& times, const Eigen::VectorXd& series)
-{
-  if (times.rows() == 0) return {};
-  return (times * series).array() / times.rowwise().sum().array();
-}
-
-/// Verdict on the mean of a series.
-inline Verdict mean_of(const Eigen::VectorXd& series, const Bootstrap& bootstrap)
-{
-  const auto how = dependence_of_mean(series, bootstrap.runs());
-  const double mean = series.mean();
-  return {.estimate = mean,
-          .interval = bootstrap.estimate(mean, sampled_means(bootstrap.samples(how), series), how),
-          .plain = percentiles(sampled_means(bootstrap.blocks(how.block), series))};
+  const auto n = static_cast<double>(series.size());
+  const Eigen::VectorXd influence = (series.array() - series.mean()) / n;
+  return {series.mean(),
+          deviation_of_windows(influence, Eigen::VectorXd::Ones(series.size()), runs).error()};
 }
 
 /// Layers whose stresses scatter about sigma^S/sigma^L = 0.966 phi_S/phi_L: by 10 % if the composition is

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
-#include "analysis/fit/rule_fit.hpp"
+#include "analysis/fit/fit_pairs.hpp"
 #include "tests/analysis/synthetic_sums.hpp"
 
 #include <cmath>
@@ -29,10 +29,11 @@ inline std::vector<FitPoint> power_law(double k, double a)
   return points;
 }
 
-/// A pseudo-random number in [-1, 1] that is the same on every machine.
+/// A pseudo-random number in [-1, 1].
 inline double scatter(std::size_t k)
 {
-  return std::sin(12.9898 * static_cast<double>(k + 1));
+  const double any = 43758.5453 * std::sin(12.9898 * static_cast<double>(k + 1));
+  return 2 * (any - std::floor(any)) - 1;
 }
 
 /// Rows of 30 windows of 7 layers: neutral contacts whose mixed part scatters by `noise`.
@@ -75,14 +76,9 @@ inline FitData neutral_data(double noise)
   return read({stress_table(neutral_rows(noise))});
 }
 
-inline Bootstrap no_bootstrap(const FitData& data)
-{
-  return Bootstrap(data.runs, 0, 1);
-}
-
 inline RuleFit fit(const FitData& data, const std::string& rule, const FitSettings& settings = {})
 {
-  return fit_rule(data, parse_rule(rule), settings, no_bootstrap(data));
+  return fit_flows(data, parse_rule(rule), settings).all;
 }
 
 /// Message of the Error thrown while `tables` are read; "" if there is none.

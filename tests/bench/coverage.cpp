@@ -18,7 +18,6 @@ namespace {
 using namespace synthetic;
 
 constexpr int trials = 1000;
-constexpr std::size_t samples = 1000, flow_samples = 300;
 
 /// Coverage over the trials, and the half-width in units of the range that contains 95 % of the estimates.
 class Tally {
@@ -46,20 +45,6 @@ class Tally {
   std::vector<double> widths_;
 };
 
-Estimate of(const RuleFit& fit, double Estimators::*place)
-{
-  return {fit.value.*place, fit.low.*place, fit.high.*place};
-}
-
-Estimate plain_b(const FitData& data, const RuleFit& fit, const Bootstrap& bootstrap)
-{
-  const Eigen::MatrixXd totals = bootstrap.blocks(fit.dependence.block) *
-                                 window_sums(fit_points(data, {}, {}), data.runs).sums;
-  Eigen::VectorXd b(totals.rows());
-  for (Eigen::Index k = 0; k < totals.rows(); ++k) b[k] = estimators_from_sums(totals.row(k)).B;
-  return percentiles(b);
-}
-
 constexpr double Estimators::*shown[] = {&Estimators::B, &Estimators::paper_B,
                                          &Estimators::paper_a};
 
@@ -67,33 +52,24 @@ void print_one_run(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
   const auto truth = ScatteredStress::truth(0);
-  Tally mean(0), plain_mean(0), plain(truth.B);
+  Tally mean(0), undoubted(truth.B);
   std::vector<Tally> estimates;
   for (const auto place : shown) estimates.emplace_back(truth.*place);
   int doubted = 0;
-  Tally undoubted(truth.B), few_doubts(truth.B);
   for (int trial = 0; trial < trials; ++trial) {
-    const Bootstrap bootstrap({windows}, samples, static_cast<unsigned long>(trial) + 1);
-    const auto of_mean = mean_of(noise.series(static_cast<Eigen::Index>(windows)), bootstrap);
-    mean.add(of_mean.estimate, of_mean.interval);
-    plain_mean.add(of_mean.estimate, of_mean.plain);
-
-    const auto data = ScatteredStress::windows({windows}, 0, noise);
-    const auto fit = fit_rule(data, {}, {}, bootstrap);
-    plain.add(fit.value.B, plain_b(data, fit, bootstrap));
+    const auto of_mean =
+        mean_over_windows(noise.series(static_cast<Eigen::Index>(windows)), {windows}).estimate();
+    mean.add(of_mean.value, of_mean);
+    const auto fit = fit_rule(ScatteredStress::windows({windows}, 0, noise), {}, {});
     for (std::size_t k = 0; k < std::size(shown); ++k)
-      estimates[k].add(fit.value.*shown[k], of(fit, shown[k]));
+      estimates[k].add(fit.value.*shown[k], fit.estimate(shown[k]));
     doubted += !fit.doubt.empty();
-    if (fit.doubt.empty()) undoubted.add(fit.value.B, of(fit, &Estimators::B));
-    if (fit.dependence.independent_windows() >= 8)
-      few_doubts.add(fit.value.B, of(fit, &Estimators::B));
+    if (fit.doubt.empty()) undoubted.add(fit.value.B, fit.estimate(&Estimators::B));
   }
-  fmt::print("{:3} {:7} {:10.3f} {:6.3f} {:10.3f} {:6.3f}", rho, windows, plain_mean.coverage(),
-             mean.coverage(), plain.coverage(), estimates[0].coverage());
-  for (std::size_t k = 1; k < std::size(shown); ++k)
-    fmt::print(" {:8.3f}", estimates[k].coverage());
-  fmt::print(" {:6.2f} {:8.3f} {:9.3f} {:9.3f}\n", estimates[0].width(),
-             static_cast<double>(doubted) / trials, undoubted.coverage(), few_doubts.coverage());
+  fmt::print("{:3} {:7} {:6.3f}", rho, windows, mean.coverage());
+  for (const auto& tally : estimates) fmt::print(" {:8.3f}", tally.coverage());
+  fmt::print(" {:6.2f} {:8.3f} {:9.3f}\n", estimates[0].width(),
+             static_cast<double>(doubted) / trials, undoubted.coverage());
   std::fflush(stdout);
 }
 
@@ -104,20 +80,15 @@ void print_runs(std::size_t runs, double scatter)
   constexpr std::size_t windows = 30;
   const double run_scatter = scatter * std::sqrt(3.0 / windows);
   Ar1 noise(0.5);
-  Tally mean(0), b(ScatteredStress::truth(run_scatter).B), inside = b;
+  Tally b(ScatteredStress::truth(run_scatter).B), inside = b;
   const RunLengths lengths(runs, windows);
   for (int trial = 0; trial < trials; ++trial) {
-    const Bootstrap bootstrap(lengths, samples, static_cast<unsigned long>(trial) + 1);
-    const auto of_mean = mean_of(noise.series(lengths, run_scatter), bootstrap);
-    mean.add(of_mean.estimate, of_mean.interval);
-    const auto fit =
-        fit_rule(ScatteredStress::windows(lengths, run_scatter, noise), {}, {}, bootstrap);
-    b.add(fit.value.B, of(fit, &Estimators::B));
-    const auto& of_windows = fit.at(Population::windows);
-    inside.add(fit.value.B, {of_windows.low, of_windows.high});
+    const auto fit = fit_rule(ScatteredStress::windows(lengths, run_scatter, noise), {}, {});
+    b.add(fit.value.B, fit.estimate(&Estimators::B));
+    inside.add(fit.value.B, fit.at(Population::windows));
   }
-  fmt::print("{:4} {:7} {:6.3f} {:6.3f} {:6.2f} {:13.3f} {:6.2f}\n", runs, scatter, mean.coverage(),
-             b.coverage(), b.width(), inside.coverage(), inside.width());
+  fmt::print("{:4} {:7} {:6.3f} {:6.2f} {:13.3f} {:6.2f}\n", runs, scatter, b.coverage(), b.width(),
+             inside.coverage(), inside.width());
   std::fflush(stdout);
 }
 
@@ -126,18 +97,12 @@ void print_drift(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
   const auto known = ScatteredStress::drifting(windows, nullptr);
-  Tally b(estimators_of(fit_points(known, {}, {})).B), plain = b;
-  double time = 0;
+  Tally b(estimators_of(fit_points(known, {}, {})).B);
   for (int trial = 0; trial < trials; ++trial) {
-    const Bootstrap bootstrap({windows}, samples, static_cast<unsigned long>(trial) + 1);
-    const auto data = ScatteredStress::drifting(windows, &noise);
-    const auto fit = fit_rule(data, {}, {}, bootstrap);
-    b.add(fit.value.B, of(fit, &Estimators::B));
-    plain.add(fit.value.B, plain_b(data, fit, bootstrap));
-    time += fit.dependence.time / trials;
+    const auto fit = fit_rule(ScatteredStress::drifting(windows, &noise), {}, {});
+    b.add(fit.value.B, fit.estimate(&Estimators::B));
   }
-  fmt::print("{:3} {:7} {:6.2f} {:10.3f} {:6.2f} {:6.3f} {:6.2f}\n", rho, windows, time,
-             plain.coverage(), plain.width(), b.coverage(), b.width());
+  fmt::print("{:3} {:7} {:6.3f} {:6.2f}\n", rho, windows, b.coverage(), b.width());
   std::fflush(stdout);
 }
 
@@ -182,7 +147,7 @@ struct PopulationTally {
 
 void add_to(Tally& tally, const Estimate& b, double truth)
 {
-  tally.add(b.value - truth, {b.low - truth, b.high - truth});
+  tally.add(b.value - truth, {b.value - truth, b.low - truth, b.high - truth});
 }
 
 double truth_of(Population over, const RunsOfFlows::Draw::Truth& truth)
@@ -215,8 +180,7 @@ void print_flows(const FlowDesign& design)
   int doubted = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const auto drawn = source.draw();
-    const auto fits =
-        fit_flows(drawn.data, {}, {}, {flow_samples, static_cast<unsigned long>(trial) + 1});
+    const auto fits = fit_flows(drawn.data, {}, {});
     doubted += !fits.all.doubt.empty();
     for (auto& [over, b] : tallies) {
       if (over == Population::runs && !fits.of_each.empty()) {
@@ -241,11 +205,11 @@ void print_flows(const FlowDesign& design)
 void print_all_flows()
 {
   fmt::print(
-      "# {} trials of {} samples: runs of {} windows, rho = {}; scatter between flows in standard\n"
+      "# {} trials: runs of {} windows, rho = {}; scatter between flows in standard\n"
       "# errors of a flow, variance between runs in that of a run's mean. Of each population the\n"
       "# coverage and the width of the interval of B; doubt: share of the trials\n"
       "# design scatter variance",
-      trials, flow_samples, RunsOfFlows::windows, RunsOfFlows::rho);
+      trials, RunsOfFlows::windows, RunsOfFlows::rho);
   for (const auto& [word, over, meaning] : populations) fmt::print(" | {}", word);
   fmt::print(" | doubt\n");
   std::fflush(stdout);
@@ -259,24 +223,21 @@ void print_all_flows()
 void print_all()
 {
   fmt::print(
-      "# {} trials of {} samples each; width: median, 1 = 1.96 standard deviations of the\n"
-      "# estimates; doubt: share of the trials in which the tool warns; coverage of B where it does\n"
-      "# not, and where the windows seem to be worth 8 independent ones\n",
-      trials, samples);
-  fmt::print(
-      "# one run\n# rho windows plain_mean   mean plain_B B paper_B paper_a "
-      " width    doubt undoubted worth_8\n");
+      "# {} trials each; width: median, 1 = 1.96 standard deviations of the estimates; doubt: share of\n"
+      "# the trials in which the tool warns; coverage of B where it does not\n"
+      "# one run\n# rho windows   mean B paper_B paper_a  width    doubt undoubted\n",
+      trials);
   for (const double rho : {0.0, 0.5, 0.8})
     for (const std::size_t windows : {3u, 6u, 12u, 24u, 48u, 120u, 480u})
       print_one_run(rho, windows);
   fmt::print(
       "# one run whose layers segregate, under a rule whose B depends on composition\n"
-      "# rho windows  time plain_B width B  width\n");
+      "# rho windows B  width\n");
   for (const double rho : {0.0, 0.5, 0.8})
     for (const std::size_t windows : {24u, 48u, 120u, 480u}) print_drift(rho, windows);
   fmt::print(
       "# several runs of 30 windows, rho = 0.5\n"
-      "# runs scatter mean B  width  windows_alone  width\n");
+      "# runs scatter B  width  windows_alone  width\n");
   for (const std::size_t runs : {2u, 3u, 4u, 8u})
     for (const double scatter : {0.0, 1.0, 3.0}) print_runs(runs, scatter);
 }

@@ -342,7 +342,7 @@ def fit():
     numbers |= {("-", name): value for name, value in line_over_share().items()}
     by_size = Neutral(shares["size"]).fit()["B"]
     for rule, share in shares.items():
-        own = Neutral(share).fit() | {"autocorrelation_time[windows]": 1, "effective_windows": 1}
+        own = Neutral(share).fit()
         if share is None:  # the stresses do not add up to the total, so there is no B
             del own["B"], own["paper_B"]
         else:

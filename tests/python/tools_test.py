@@ -136,7 +136,7 @@ def check_fits(paths, options=None, **filters):
     """Compares every number of every rule, B(p) and p*; OPTIONS are the filters of grseg-fit."""
     tables, options = [grseg.read_table(path) for path in paths], options or []
     points = grseg.Points(tables, **filters)
-    fit = [*paths, "--bootstrap", "0", *options, "-o", "fit.tsv"]
+    fit = [*paths, *options, "-o", "fit.tsv"]
     run_tool("fit", *fit, "--partition", ",".join(RULES), "--fit", "paper")
     for rule, numbers in numbers_of("fit.tsv").items():
         mine, what = points.fit(rule), f"fit of {paths} {options} by {rule}"
@@ -156,7 +156,7 @@ def check_fits(paths, options=None, **filters):
 
 
 def check_kinetic_fit(path):
-    run_tool("fit", path, "--bootstrap", "0", "--quantity", "kinetic", "--fit", "paper", "--heights", "all", "-o", "fit.tsv")
+    run_tool("fit", path, "--quantity", "kinetic", "--fit", "paper", "--heights", "all", "-o", "fit.tsv")
     mine = grseg.Points(grseg.read_table(path), quantity="kinetic", heights="all").fit()
     numbers = numbers_of("fit.tsv")["kinetic"]
     for name in ("points", "B", "paper_s", "paper_B", "paper_k", "paper_a"):
@@ -307,7 +307,7 @@ def check_runs():
     names = ["first.tsv", "second.tsv"]
     if set(grseg.Points([grseg.read_table(name) for name in names]).run) != {0}:
         raise Difference("first.tsv and second.tsv are of one run")
-    run_tool("fit", *names, "--bootstrap", "0", "-o", "fit.tsv")
+    run_tool("fit", *names, "-o", "fit.tsv")
     if rows_of("fit.tsv")[1]["runs"] != "1":
         raise Difference("grseg-fit counts first.tsv and second.tsv as two runs")
 
@@ -367,10 +367,9 @@ def runs_of_equal_weight(parts, weight, error=grseg._error_over_runs):
 
 
 FAULTS_OF_INTERVALS = {
-    "windows taken for independent": ("_autocorrelation_time", lambda series: 1.0),
+    "windows taken for independent": ("_neighbours", lambda series: 0.0),
     "drift of composition counted as noise": ("_composition_noise", mean_alone),
     "windows that overlap, or in which nothing moves, counted": ("_is_again", lambda *_: False),
-    "other samples": ("_draw", lambda count, below: np.random.RandomState(2).randint(0, below, count)),
     "a normal distribution in Student's place": ("_student", lambda degrees: 1.959963984540054),
     "runs of equal weight": ("_error_over_runs", runs_of_equal_weight),
     "flows taken for one": ("Points._is_one_flow", lambda *_: True),

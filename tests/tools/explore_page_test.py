@@ -834,7 +834,7 @@ def many_grains(name, grains, frames=None):
 def check_sizes():
     """A page of 200,000 grains opens; a page that no browser could open is refused before any frame is read."""
     many_grains("many.h5", 200000, 3)
-    tool("explore", "many.h5", "--trust", "--window", "0.3", "--quiet", "--bootstrap", "0", "-o", "many.html")
+    tool("explore", "many.h5", "--trust", "--window", "0.3", "--quiet", "-o", "many.html")
     with Page("many.html") as page:
         assert page.run("return grseg.page.players[0].frames.grains") == 200000
     many_grains("too-many.h5", 1200000)

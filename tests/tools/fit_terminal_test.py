@@ -10,7 +10,7 @@ import shared  # noqa: E402
 import terminal  # noqa: E402
 
 program, sums = sys.argv[1:]
-options = [sums, "--heights", "all", "--bootstrap", "100", "--partition", "size,half"]
+options = [sums, "--heights", "all", "--partition", "size,half"]
 
 
 def on_terminal(*more):

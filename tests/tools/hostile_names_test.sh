@@ -41,7 +41,7 @@ nothing_ran "the name of the folder"
 grep -q 'the folder where make was called contains \$' log || fail "$(cat log)"
 refused 'OUT contains a blank; ' -C "$source/scripts" reanalysis RUNS=run.h5 OUT='my folder'
 for bad in '$(shell touch pwned)' '`touch pwned` $(touch pwned)' "$line_break"; do
-  for variable in PARTITION LAYER WINDOW BEGIN ASSIGN MEAN BOOTSTRAP SCAN HEIGHTS; do
+  for variable in PARTITION LAYER WINDOW BEGIN ASSIGN MEAN SCAN HEIGHTS; do
     refused "$variable contains .*write it without" -C "$source/scripts" reanalysis RUNS=run.h5 "$variable=$bad"
   done
   refused 'RUN contains .*write it without' -C "$source/scripts" reproduce RUN="$bad"
@@ -67,7 +67,7 @@ done
 # A folder of tables by a name that gnuplot or its shell could run.
 for bad in "it's;touch pwned;'" '<touch pwned;' '|touch pwned;' '`touch pwned`'; do
   mkdir -p "$bad"
-  $bin/grseg-fit "$source/tests/inputs/neutral-sums.tsv" --scan 0.4:0.9:0.1 --bootstrap 0 --quiet -o "$bad/scan.tsv"
+  $bin/grseg-fit "$source/tests/inputs/neutral-sums.tsv" --scan 0.4:0.9:0.1 --quiet -o "$bad/scan.tsv"
   gnuplot -c "$source/scripts/figures/b-of-p.gp" "$bad" >log 2>&1 || fail "$bad: $(cat log)"
   nothing_ran "$bad"
   [ -s "$bad/b-of-p.png" ] || fail "$bad: no figure: $(cat log)"

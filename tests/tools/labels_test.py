@@ -55,7 +55,7 @@ def tool(name, *words):
 
 
 def b_of(table, thickness):
-    rows = tool("fit", table, "--heights", f"{LOW}dS:{HIGH}dS", "--thickness", thickness, "--bootstrap", "0", "--quiet").splitlines()
+    rows = tool("fit", table, "--heights", f"{LOW}dS:{HIGH}dS", "--thickness", thickness, "--quiet").splitlines()
     return next(float(row.split("\t")[6]) for row in rows if row.split("\t")[4:5] == ["B"])
 
 

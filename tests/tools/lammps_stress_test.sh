@@ -24,12 +24,12 @@ awk 'function off(a, b, difference) { return a == 0 && b == 0 ? 0 : difference^2
 
 compare 2dS # one layer holds both species
 for table in sums printed; do
-  "$bin/grseg-fit" $table-2dS.tsv --partition half --base-part half --heights all --bootstrap 0 --min-solid 0 --quiet |
+  "$bin/grseg-fit" $table-2dS.tsv --partition half --base-part half --heights all --min-solid 0 --quiet |
     awk -F'\t' '$5 == "B" { printf "%.12g\n", $7 }' | tee $table.slope
 done
 [ -s sums.slope ] && cmp sums.slope printed.slope
 
 # A scan takes its shares at the grains, too.
-fit() { "$bin/grseg-fit" sums-2dS.tsv --base-part half --heights all --bootstrap 0 --min-solid 0 --quiet "$@" | grep -v '^#'; }
+fit() { "$bin/grseg-fit" sums-2dS.tsv --base-part half --heights all --min-solid 0 --quiet "$@" | grep -v '^#'; }
 b=$(fit --partition half | awk -F'\t' '$5 == "B" { print $7 }')
 [ "$(fit --scan 0.5:0.6:0.1 | awk 'NR == 2 { print $2 }')" = "$b" ]

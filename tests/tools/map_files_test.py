@@ -239,7 +239,7 @@ def check_b():
         for thickness in "kept", "removed":
             for part in "yy", "pressure":
                 printed = call(fit, name, "--quantity", quantity, "--thickness", thickness, "--component", part, "--heights",
-                               "all", "--bootstrap", "0", "--quiet").stdout
+                               "all", "--quiet").stdout
                 number = {line.split("\t")[4]: float(line.split("\t")[6]) for line in printed.splitlines()
                           if re.match("size|kinetic|-\t", line)}
                 b, cells = by_hand(columns, quantity, thickness == "removed", part == "pressure")

@@ -81,12 +81,12 @@ refused "new_prev.chk already exists" new_prev.chk "$bin/grseg-sim" scene.ini --
 
 # What may be replaced is; devices and pipes are written to.
 echo old >old
-"$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o old --overwrite
+"$bin/grseg-fit" sums.tsv --quiet -o old --overwrite
 grep -q '^# program: grseg-fit' old || fail "--overwrite does not replace a table"
-"$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o /dev/null
+"$bin/grseg-fit" sums.tsv --quiet -o /dev/null
 [ -c /dev/null ] || fail "/dev/null was replaced"
-"$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o /dev/stdout | grep -q '^# program' || fail "no table in the pipe"
-"$bin/grseg-fit" sums.tsv --bootstrap 0 --quiet -o /dev/stdout --overwrite >redirected.tsv
+"$bin/grseg-fit" sums.tsv --quiet -o /dev/stdout | grep -q '^# program' || fail "no table in the pipe"
+"$bin/grseg-fit" sums.tsv --quiet -o /dev/stdout --overwrite >redirected.tsv
 grep -q '^# program' redirected.tsv || fail "no table where standard output is redirected to a file"
 [ -L /dev/stdout ] || fail "/dev/stdout was replaced"
 for file in said.* *.tmp.* *.lock; do [ ! -e "$file" ] || fail "$file was left behind"; done

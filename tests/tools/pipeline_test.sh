@@ -20,8 +20,8 @@ grep -q '^# input: xxh3 [0-9a-f]\{16\}$' a.tsv || fail "no content digest"
 
 # Standard input and a file give the same B.
 $bin/grseg-stress a.h5 --window 0.5 -o sums.tsv --quiet
-$bin/grseg-fit sums.tsv --heights all --bootstrap 0 --quiet | grep -v '^#' >file.txt
-$bin/grseg-stress a.h5 --window 0.5 --quiet | $bin/grseg-fit - --heights all --bootstrap 0 --quiet | grep -v '^#' >pipe.txt
+$bin/grseg-fit sums.tsv --heights all --quiet | grep -v '^#' >file.txt
+$bin/grseg-stress a.h5 --window 0.5 --quiet | $bin/grseg-fit - --heights all --quiet | grep -v '^#' >pipe.txt
 cmp file.txt pipe.txt || fail "a pipe and a file differ"
 
 # The tables of all tools have the same windows and layers, so that their rows can be joined.

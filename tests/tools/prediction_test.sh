@@ -10,7 +10,7 @@ tar -xjf "$source/data/reproduction/questions.tar.bz2" --wildcards 'phi0.30-s23-
 fail() { echo "$1" >&2; exit 1; }
 fit="phi0.30-s23-e0.25-seed1/segregation.tsv phi0.30-s23-e0.25-seed1/stress.tsv
      phi0.30-s23-e0.25-seed2/segregation.tsv phi0.30-s23-e0.25-seed2/stress.tsv"
-options="--begin 10 --heights 12dS:56dS --bootstrap 0 --partition size --quiet"
+options="--begin 10 --heights 12dS:56dS --partition size --quiet"
 other=phi0.60-s23-e0.25-seed1/segregation.tsv
 
 $closure $fit $options -o numbers.tsv --profiles profiles.tsv --predict $other

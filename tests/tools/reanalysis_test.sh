@@ -12,7 +12,7 @@ $bin/grseg-sim "$source/sim/scenes/chute.ini" --depth 10dS --length 10dL --phi-l
 cp run.h5 twin.h5
 digest=$(cksum run.h5)
 
-again() { PWD=$folder make --no-print-directory -C "$source/scripts" reanalysis BIN="$bin" WINDOW=0.5 BOOTSTRAP=0 HEIGHTS=all RUNS=run.h5 "$@"; }
+again() { PWD=$folder make --no-print-directory -C "$source/scripts" reanalysis BIN="$bin" WINDOW=0.5 HEIGHTS=all RUNS=run.h5 "$@"; }
 again >log
 [ -s reanalysis/fit.tsv ] && [ -s reanalysis/run.stress.tsv ] || fail "$(cat log)"
 grep -q '^rule  *B \[95 %\]  ' log && grep -q '^size  ' log && grep -q '^kinetic  ' log && grep -q '^B = 0 if' log ||
@@ -31,7 +31,7 @@ cp reanalysis/fit.tsv before.tsv
 cmp -s reanalysis/fit.tsv before.tsv && [ -s reanalysis/fit.txt ] || fail "an unknown rule took the fit before with it: $(cat log)"
 ! again PARTITIONS=size >log 2>&1 || fail "an unknown variable was taken"
 grep -q 'PARTITIONS is unknown here' log || fail "an unknown variable: $(cat log)"
-PWD=$folder make --no-print-directory -C "$source/scripts" figure BIN="$bin" WINDOW=0.5 BOOTSTRAP=0 \
+PWD=$folder make --no-print-directory -C "$source/scripts" figure BIN="$bin" WINDOW=0.5 \
   LAYER=5dS RUNS=run.h5 HEIGHTS=5dS: >log 2>&1
 [ "$(grep -c 'bin/grseg-' log)" = 2 ] && [ "$(head -c 4 reanalysis/b-of-p.png | tail -c 3)" = PNG ] ||
   fail "the figure: $(cat log)"

@@ -11,7 +11,7 @@ cd "$folder"
 fail() { echo "$1" >&2; exit 1; }
 campaign() {
   PWD=$folder make --no-print-directory -C "${scripts:-$source/scripts}" reproduce BIN="$bin" MIXTURES=0.45 SLOPES=23 SEEDS=1 \
-    CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 BOOTSTRAP=0 FIGURES=no CHECKPOINT_EVERY=0.05 "$@"
+    CONTROL_SEEDS=0 DURATION=2 DEPTH=12dS LENGTH=16dS ACCURACY=draft WINDOW=0.25 FIGURES=no CHECKPOINT_EVERY=0.05 "$@"
 }
 # did COMMAND NUMBER: the last call ran the command that many times.
 did() { [ "$(grep -c "^[^#]*$1" log)" = "$2" ] || fail "$1 should run $2 times: $(cat log)"; }

@@ -31,7 +31,7 @@ class Run:
 
 def b_of(table):
     fit = subprocess.run([os.path.join(programs, "grseg-fit"), table, "--heights", HEIGHTS,
-                          "--bootstrap", "0", "--json", "--quiet"], check=True, capture_output=True, text=True)
+                          "--json", "--quiet"], check=True, capture_output=True, text=True)
     return next(row["value"] for row in json.loads(fit.stdout)["numbers"] if row["quantity"] == "B")
 
 

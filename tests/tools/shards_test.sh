@@ -43,7 +43,7 @@ expected=3 sentence="'# part: 1/2' instead of '# part: 2/2'" refused
 expected=3 sentence="'# history: grseg-stress chute.h5 .* instead of '# history: .*--layer 2dS" refused --layer 2dS
 [ ! -e sums.tsv ] || fail 'a refused output appeared'
 
-again() { PWD=$folder make --no-print-directory -j2 -C "$source/scripts" reanalysis BIN="$bin" WINDOW=2 BOOTSTRAP=0 RUNS=chute.h5 "$@"; }
+again() { PWD=$folder make --no-print-directory -j2 -C "$source/scripts" reanalysis BIN="$bin" WINDOW=2 RUNS=chute.h5 "$@"; }
 again >log
 mv reanalysis whole
 again SHARDS=10 RUN="env --" >log

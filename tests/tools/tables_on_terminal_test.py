@@ -19,7 +19,7 @@ COMMANDS = {
     "balance": [run, "--window", "5"],
     "segregation": [run, "--summary"],
     "check": [run, "--physics"],
-    "fit": [f"{source}/tests/inputs/neutral-sums.tsv", "--heights", "all", "--scan", "0.5:0.8:0.1", "--bootstrap", "0"],
+    "fit": [f"{source}/tests/inputs/neutral-sums.tsv", "--heights", "all", "--scan", "0.5:0.8:0.1", ],
 }
 
 

@@ -16,7 +16,6 @@ OPTIONS = {
     "-o": {"dest": "output", "required": True, "metavar": "FILE"},
     "--bin": {"metavar": "FOLDER", "default": os.path.join(os.path.dirname(__file__), *[".."] * 3, "build", "bin"),
               "help": "folder of the programs (build/bin)"},
-    "--bootstrap": {"default": "1000", "metavar": "N", "help": "number of bootstrap samples (1000)"},
     "--partition": {"metavar": "RULES"},
     "--flows": {"metavar": "LIST", "help": "flows to use instead of the default, separated by commas"},
     "--heights": {"metavar": "LOW:HIGH", "help": "heights of the layers that are used"},
@@ -24,24 +23,23 @@ OPTIONS = {
     "--end": {"metavar": "T", "help": "use windows up to this time, s"},
 }
 MADE = ["tables", "-o", "--bin"]
-FITTED = [*MADE, "--bootstrap"]
-FLUX = [*FITTED, "--heights", "--begin", "--end"]
+FLUX = [*MADE, "--heights", "--begin", "--end"]
 # Module and options of each command, and settings of these options that differ from OPTIONS.
 COMMANDS = {
-    "fits": ("fits", [*FITTED, "--partition"], {}),
-    "choices": ("fits", FITTED, {}),
-    "mixtures": ("fits", [*FITTED, "--flows"], {}),
+    "fits": ("fits", [*MADE, "--partition"], {}),
+    "choices": ("fits", MADE, {}),
+    "mixtures": ("fits", [*MADE, "--flows"], {}),
     "flows": ("flows", [*MADE, "fits"], {"fits": {"metavar": "FITS"}}),
     "numbers": ("measures", MADE, {}),
     "document": ("document", ["work", "documents"], {"documents": {"nargs": "+"}}),
-    "questions": ("questions", FITTED, {"tables": {"nargs": "+"}}),
+    "questions": ("questions", MADE, {"tables": {"nargs": "+"}}),
     "rigid-limit": ("questions", ["questions", "-o", "--flow"], {"--flow": {"default": "phi0.45-s23"}}),
     "closures": ("closures", [*FLUX, "--flows"], {"--heights": {"default": "12dS:56dS"}}),
     "denser": ("closures", [*FLUX, "--flow"], {"--flow": {"default": "phi0.45-s23-mixed"}, "--heights": {"default": "4dS:56dS"}}),
     "stages": ("stages", ["tables", "-o", "--flows", "--window"],
                {"--flows": {"default": "phi0.45-s23-t600,phi0.45-s23-mixed-t600,phi0.45-s23-above-t600"},
                 "--window": {"type": float, "default": 10, "metavar": "S", "help": "duration of a point (10)"}}),
-    "spheres": ("spheres", FITTED, {}),
+    "spheres": ("spheres", MADE, {}),
     "answers": ("answers", ["folder", "documents"], {"documents": {"nargs": "+"}}),
     "combinations": ("combinations", ["source", "-o", "--figure"],
                      {"source": {"metavar": "FOLDER|combinations.tsv"}, "-o": {"required": False}, "--figure": {"metavar": "FILE"}}),

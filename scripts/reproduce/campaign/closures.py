@@ -13,7 +13,7 @@ def closure(options, runs):
     """Value and interval of every number in NAMES, from grseg-closure."""
     paths = [run.path(table) for run in runs for table in ("segregation", "stress")]
     _, rows = tables.program(options, "grseg-closure", *paths, "--heights", options.heights, "--begin", options.begin,
-                             *(["--end", options.end] if options.end else []), "--partition", "size,half", "--bootstrap", options.bootstrap, "--quiet")
+                             *(["--end", options.end] if options.end else []), "--partition", "size,half", "--quiet")
     by_name = {row["quantity"]: row for row in rows}
     return {name + end: float(by_name[quantity][of]) for name, quantity in NAMES.items()
             for end, of in zip(tables.ENDS, ("value", "low", "high"))}

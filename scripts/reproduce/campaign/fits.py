@@ -43,7 +43,7 @@ def fit(options, case, runs, rules):
     kind = "stress-random" if case["set"] == "control" else \
         "stress" if case["quantity"] == "contact" else "kinetic"
     words = ["--quantity", case["quantity"], "--component", case["component"], "--quiet",
-             "--bootstrap", options.bootstrap, *STAGES[case["stage"]], *HEIGHTS[case["heights"]], *tables.sizes_of(runs)]
+             *STAGES[case["stage"]], *HEIGHTS[case["heights"]], *tables.sizes_of(runs)]
     if len(tables.by_flow(runs)) > 1:
         words += ["--over", "compositions"]
     if rules:
@@ -111,7 +111,7 @@ def fitted(options, runs, quantity, *words):
     """(B, low, high) for each rule; None if a table is missing, [] if grseg-fit fails."""
     if quantity is None or not runs or not all(run.has(quantity) for run in runs):
         return None
-    rows = tables.fits_if_any(options, "choices", *(run.path(quantity) for run in runs), *WHERE, "--bootstrap", options.bootstrap, *words)
+    rows = tables.fits_if_any(options, "choices", *(run.path(quantity) for run in runs), *WHERE, *words)
     return [tuple(row[f"B{end}"] for end in ("", "_windows_low", "_windows_high")) for row in rows]
 
 
@@ -164,7 +164,7 @@ def mixtures(options):
     os.makedirs(options.output, exist_ok=True)
     rows = []
     for flow, runs in flows.items():
-        words = [*(run.path("stress") for run in runs), *WHERE, "--bootstrap", options.bootstrap]
+        words = [*(run.path("stress") for run in runs), *WHERE]
         tables.shared.tool(options.bin, "grseg-fit", *words, "--scan", "0.4:0.9:0.0125", "--overwrite", "-o",
                            os.path.join(options.output, f"scan-{flow}.tsv"))
         for fit_ in tables.fits(options, *words, "--partition", "size,contact-point,half"):

@@ -83,7 +83,7 @@ def strength(options, runs, *words, name="B"):
     """B of all runs together, from layers inside."""
     kind = "kinetic" if "kinetic" in words else "stress"
     return tables.fits(options, *(run.path(kind) for run in runs), "--heights", "4dS:56dS",
-                       "--over", "windows", "--bootstrap", 0, "--quiet", *words)[0][name]
+                       "--over", "windows", "--quiet", *words)[0][name]
 
 
 def early_less_late(options, part):

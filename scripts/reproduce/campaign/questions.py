@@ -20,7 +20,7 @@ def fitted(options, runs, quantity, column, *words, table=None):
         return NO_FIT
     words = [*words, *tables.sizes_of(runs), *(["--over", "flows"] if len(tables.by_flow(runs)) > 1 else [])]
     rows = tables.fits_if_any(options, f"questions: {runs[0].flow}", *(run.path(table) for run in runs), "--quantity", quantity, "--quiet",
-                              "--bootstrap", options.bootstrap, *words)
+                              *words)
     if not rows:
         return NO_FIT
     if len(rows) != 1:

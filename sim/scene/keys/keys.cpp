@@ -195,7 +195,7 @@ std::vector<SceneKey> base_keys()
      when.discs + when.free_base},
     {"base-height-spread", "0", length(&Scene::base_height_spread, "0", "10dL"), bed, yes,
      "range of the tops of the grains in a bed's base: each is lowered by a random distance from 0 "
-     "to this value", when.discs + when.free_base},
+     "to this value", when.free_base},
     {"base-spacing", "", length(&Scene::base_spacing, "0.1dS", "12.5dL"), bed, yes,
      "mean distance along x between centres of grains in a bed's base, enlarged until a whole "
      "number fills the cell. Below base-diameter the grains overlap (default: base-diameter)",

@@ -61,7 +61,6 @@ PartitionSettings settings_of(const char* rules)
 {
   PartitionSettings settings;
   settings.rules = parse_rules({rules});
-  settings.resampling = {0, 1};
   return settings;
 }
 

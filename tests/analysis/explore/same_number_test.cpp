@@ -26,23 +26,19 @@ TEST(CommandsOf, EveryOptionThatChangesTheNumberIsPassedToTheToolThatUsesIt)
   settings.partition.filters.heights = "4dS:";
   settings.component = "pressure";
   settings.base = "half";
-  settings.bootstrap = 0;
-  settings.seed = 7;
   const auto made = commands_of("my run.h5", nullptr, settings, 2);
   EXPECT_EQ(made["sums"],
             "grseg-stress 'my run.h5' --layer 2dS --window 2.5 --begin 1 --end 9.5 --stride 3 "
             "--group S=1 --group L=2,3 --trust");
   EXPECT_EQ(made["file"], "sums-2.tsv");
-  EXPECT_EQ(made["fit"],
-            " --heights 4dS: --component pressure --base-part half --bootstrap 0 --seed 7");
+  EXPECT_EQ(made["fit"], " --heights 4dS: --component pressure --base-part half");
   Table given;
   given.name = "kept.tsv";
   const auto of_table = commands_of("my run.h5", &given, settings, 1);
   EXPECT_EQ(of_table["sums"], "");
   EXPECT_EQ(of_table["file"], "kept.tsv");
   EXPECT_EQ(of_table["fit"],
-            " --begin 1 --end 9.5 --heights 4dS: --component pressure --base-part half "
-            "--bootstrap 0 --seed 7");
+            " --begin 1 --end 9.5 --heights 4dS: --component pressure --base-part half");
 }
 
 }  // namespace

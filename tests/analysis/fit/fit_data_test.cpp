@@ -88,7 +88,7 @@ TEST(FitData, ATwinAddsNoObservations)
   EXPECT_EQ(both.runs, (RunLengths{10}));
   EXPECT_EQ(both.samples.size(), 20u);
   const auto width = [](const FitData& data) {
-    const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+    const auto fit = fit_rule(data, {}, {});
     return fit.high.B - fit.low.B;
   };
   EXPECT_NEAR(width(both) / width(one), 1, 0.01);
@@ -101,7 +101,7 @@ TEST(FitData, WindowsInWhichNothingMovesAreOneObservationWithoutAnInterval)
   EXPECT_EQ(data.runs, (RunLengths{1}));
   EXPECT_EQ(data.still, 9u);
   EXPECT_EQ(data.samples.size(), 10u);
-  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 500, 1));
+  const auto fit = fit_rule(data, {}, {});
   EXPECT_TRUE(std::isnan(fit.low.B) && std::isnan(fit.high.B));
   EXPECT_EQ(fit.doubt, "one window is one observation, too few for an interval");
 }

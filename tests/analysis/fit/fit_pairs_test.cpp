@@ -64,13 +64,12 @@ Table table_with_exponent(const SpeciesList& species, double a, double noise, in
   return table;
 }
 
-std::vector<RuleFit> fits_of(const Table& table, std::size_t samples = 0)
+std::vector<RuleFit> fits_of(const Table& table)
 {
   const std::vector<PartitionRule> rules{{}};
   const std::vector<Table> tables{table};
   const auto read = read_fit_tables(tables, Quantity::contact, rules);
-  return fit_pairs(read, Quantity::contact, {}, all_pairs(read[0].species.size()), rules, {},
-                   {samples, 1}, true);
+  return fit_pairs(read, Quantity::contact, {}, all_pairs(read[0].species.size()), rules, {}, true);
 }
 
 const SpeciesList five{{"p", 1}, {"q", 1.3}, {"r", 2}, {"s", 2.2}, {"t", 4}};
@@ -87,7 +86,7 @@ TEST(SizeExponent, OfTwoSpeciesIsThatOfTheirLogarithms)
 {
   for (const int dimension : {2, 3}) {
     const auto fit =
-        fits_of(table_with_exponent({{"small", 1}, {"large", 2}}, 0.06, 0.3, dimension), 500)[0];
+        fits_of(table_with_exponent({{"small", 1}, {"large", 2}}, 0.06, 0.3, dimension))[0];
     const auto& exponent = *fit.size_exponent;
     EXPECT_NEAR(exponent.value, fit.value.minus_ln_s / std::log(2), 1e-14);
     EXPECT_NEAR(exponent.low, fit.low.minus_ln_s / std::log(2), 1e-10);

@@ -43,8 +43,8 @@ RuleFit difference(const std::vector<Table>& tables, const std::vector<Table>& o
     return of;
   };
   const auto one = source(tables);
-  auto fits = fit_pairs(one.tables, one.quantity, one.filters, {{0, 1}}, {{}}, {}, {400, 1}, false);
-  add_differences(fits, one, source(others), {}, {400, 1});
+  auto fits = fit_pairs(one.tables, one.quantity, one.filters, {{0, 1}}, {{}}, {}, false);
+  add_differences(fits, one, source(others), {});
   return fits.back();
 }
 

@@ -3,13 +3,13 @@
 #include "analysis/fit/estimators.hpp"
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flows.hpp"
+#include "tests/analysis/correlated_windows.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 namespace grseg {
@@ -48,8 +48,7 @@ TEST(IntervalByHand, TheSlopeOfBFallsWhereOtherContactsGrow)
     rows.push_back({1.0 * k, k + 1.0, 10, sums});
   }
   const auto data = read({stress_table(rows)});
-  const auto scan =
-      scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  const auto scan = scan_partition(data, parse_scan("0.6:0.7:0.1"), {});
   EXPECT_NEAR(scan.line.dB_dp.value, 5. / 3, 1e-4);
   EXPECT_NEAR(half_width(scan.line.dB_dp.estimate()) / half_width(scan.line.p_zero.estimate()),
               1. / 3 * 5. / 3, 1e-3);
@@ -69,15 +68,13 @@ TEST(IntervalByHand, TheSlopeOfBOverRunsIsThatOfEachRun)
     tables.push_back(stress_table(rows));
   }
   const auto data = read(tables);
-  const auto scan =
-      scan_partition(data, parse_scan("0.6:0.7:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  const auto scan = scan_partition(data, parse_scan("0.6:0.7:0.1"), {});
   EXPECT_NEAR(half_width(scan.line.dB_dp.estimate()) / half_width(scan.line.p_zero.estimate()),
               1. / 3 * 5. / 3, 2e-3);
 }
 
-// Four runs of one flow and one run of another. The first four contribute 3, 1, -1 and -3 (mean 0): 4/3
-// of 20. For the single run only the noise of its twelve windows counts, not its value. They are worth
-// 12/5 windows (up three, down three: autocorrelation time 5), less one fitted mean: 12 x 5 x 2.4/1.4.
+// Four runs of one flow and one run of another. The first four contribute 3, 1, -1 and -3 (mean 0):
+// 4/3 of 20. For the single run only the noise of its twelve windows counts, not its value.
 TEST(IntervalByHand, RunsOfAFlowCountByTheirScatterAndASingleOneByTheNoiseOfItsWindows)
 {
   FitData data;
@@ -86,8 +83,10 @@ TEST(IntervalByHand, RunsOfAFlowCountByTheirScatterAndASingleOneByTheNoiseOfItsW
   Eigen::VectorXd sums = Eigen::VectorXd::LinSpaced(16, 100, 200), noise = sums;
   sums.head(4) << 3, 1, -1, -3;
   for (Eigen::Index k = 0; k < 12; ++k) noise[4 + k] = k / 3 % 2 == 0 ? 1 : -1;
-  const auto error = RunErrors(data, Eigen::VectorXd::Ones(16)).within_flows({sums, noise});
-  EXPECT_NEAR(error.error, std::sqrt(4. / 3 * 20 + 12 * 5 * 2.4 / 1.4), 1e-12);
+  const auto error = Errors(data, Eigen::VectorXd::Ones(16)).over(Population::flows, {sums, noise});
+  const double of_windows =
+      deviation_of_windows(noise.tail(12), Eigen::VectorXd::Ones(12), {12}).error().error;
+  EXPECT_NEAR(error.error, std::hypot(std::sqrt(4. / 3 * 20), of_windows), 1e-12);
 }
 
 TEST(WeightByHand, TheOverallCompositionOfARunIsThatOfItsFrames)
@@ -120,88 +119,29 @@ TEST(IntervalByHand, WhatFollowsFromTheCompositionIsNotNoise)
     rows.push_back({1.0 * k, k + 1.0, 10, sums});
   }
   const auto data = read({stress_table(rows)});
-  const auto scan =
-      scan_partition(data, parse_scan("0.4:0.9:0.1"), {}, Bootstrap(data.runs, 500, 1));
+  const auto scan = scan_partition(data, parse_scan("0.4:0.9:0.1"), {});
   EXPECT_NEAR(scan.line.p_zero.value, 0.65, 1e-9);
   EXPECT_LT(half_width(scan.line.p_zero.estimate()), 1e-9);
-  const auto fit =
-      fit_rule(data, {PartitionRule::Kind::uniform, 0.65}, {}, Bootstrap(data.runs, 500, 1));
+  const auto fit = fit_rule(data, {PartitionRule::Kind::uniform, 0.65}, {});
   EXPECT_LT(fit.high.B - fit.low.B, 1e-9);
 }
 
-// Layers with one composition and one number of frames: B is the mean of (psi_L - 0.2)/0.16 +- d,
-// with Student's interval for 40 independent windows, t = 2.0227.
+// Layers with one composition and one number of frames: B is the mean of (psi_L - 0.2)/0.16 +- d.
 TEST(IntervalByHand, OfBWhereAllLayersAreAlikeIsThatOfAMean)
 {
   std::vector<TableRow> rows;
+  Eigen::VectorXd series(40);
   for (int k = 0; k < 40; ++k) {
     const double large = 0.25 + 0.01 * sign(k);
+    series[k] = (large - 0.2) / 0.16;
     rows.push_back(
         {1.0 * k, k + 1.0, 10,
          moved(separate_sums(0.2, (1 - large) * any_tensor(), large * any_tensor()), k)});
   }
-  const auto data = read({stress_table(rows)});
-  const auto fit = fit_rule(data, {}, {}, Bootstrap(data.runs, 4000, 1));
+  const auto fit = fit_rule(read({stress_table(rows)}), {}, {});
   EXPECT_NEAR(fit.value.B, 0.05 / 0.16, 1e-12);
-  const double expected = 2.0227 * 0.01 / 0.16 / std::sqrt(39.);
-  EXPECT_NEAR((fit.high.B - fit.low.B) / 2 / expected, 1, 0.05);
-}
-
-/// +1 for eight windows, then -1 for eight.
-double slow(int window)
-{
-  return window / 8 % 2 == 0 ? 1 : -1;
-}
-
-// -ln s of windows with one composition and weight is a plain mean of blocks of eight values -0.1 and 0.1
-// in turn: drawn in blocks like any series.
-TEST(IntervalByHand, OfOneRunIsThatOfAMeanOverBlocksOfItsWindows)
-{
-  std::vector<TableRow> rows;
-  Eigen::VectorXd series(96);
-  for (int k = 0; k < 96; ++k) {
-    series[k] = -0.1 * slow(k);
-    rows.push_back(
-        {1.0 * k, k + 1.0, 10,
-         moved(separate_sums(0.5, std::exp(-series[k]) * any_tensor(), any_tensor()), k)});
-  }
-  const auto data = read({stress_table(rows)});
-  const Bootstrap bootstrap(data.runs, 500, 1);
-  const auto fit = fit_rule(data, {}, {}, bootstrap);
-  ASSERT_GT(fit.dependence.block, 3u);
-  const auto expected =
-      bootstrap.window_error(bootstrap.blocks(fit.dependence.block) * series / 96, fit.dependence)
-          .around(series.mean());
-  EXPECT_NEAR(fit.low.minus_ln_s, expected.low, 1e-10);
-  EXPECT_NEAR(fit.high.minus_ln_s, expected.high, 1e-10);
+  EXPECT_NEAR(fit.high.B, synthetic::mean_over_windows(series, {40}).estimate().high, 1e-8);
   EXPECT_NEAR(fit.at(Population::windows).low, fit.low.B, 1e-14);
-}
-
-// A layer with few large grains changes slowly; an even layer changes by half as much, from window to
-// window. With weights by grain number the even layer counts, with weights by frames psi of both counts:
-// 0.005 fast + 0.02 slow.
-TEST(IntervalByHand, TheSumsSayHowDependentTheirOwnWindowsAre)
-{
-  std::vector<FitPoint> points;
-  Eigen::VectorXd sums(96);
-  for (int k = 0; k < 96; ++k) {
-    const double fast = "+-++---+-+--+++-"[k % 16] == '+' ? 0.005 : -0.005;
-    for (const auto& [phi, weight, change] :
-         {std::tuple{0.8, 0.2, fast}, {0.05, 0.0125, 0.02 * slow(k)}})
-      points.push_back({.window = static_cast<std::size_t>(k),
-                        .phi_large = phi,
-                        .weight = weight,
-                        .size_ratio = 2,
-                        .small = 1 - phi - change,
-                        .large = phi + change,
-                        .total = 1});
-    sums[k] = fast + 0.02 * slow(k);
-  }
-  const auto windows = window_sums(points, {96});
-  const double time = autocorrelation_time(sums, {96});
-  ASSERT_GT(time, 3);
-  EXPECT_NEAR(dependence(windows, {96}, true).time, time, 1e-9);
-  EXPECT_LT(dependence(windows, {96}, false).time, 0.8 * time);  // time of the logarithms alone
 }
 
 ContactSums<2> with_contents(double small, double large, double volume)
@@ -254,7 +194,7 @@ TEST(WeightByHand, TheSizeExponentIsALineThroughTheOriginOverTheLogarithmOfSizes
   const double unit = std::log(2.);
   const double above = 4 * 0.1 * unit + 0.4 * 2 * unit + 0.3 * unit;
   const double below = 4 * unit * unit + 4 * unit * unit + unit * unit;
-  EXPECT_NEAR(size_exponent(data, {}, {}, {}).value, above / below, 1e-13);
+  EXPECT_NEAR(size_exponent(data, {}, {}).value, above / below, 1e-13);
 }
 
 }  // namespace

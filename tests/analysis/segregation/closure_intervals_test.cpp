@@ -68,7 +68,7 @@ Trials tried(int trials, const std::function<ClosureData(synthetic::Ar1&)>& make
   Trials all;
   double sum[2] = {}, squares[2] = {};
   for (int trial = 0; trial < trials; ++trial) {
-    const auto summary = closure_summary(make(noise), parse_rules({"size"}), {200, 1});
+    const auto summary = closure_summary(make(noise), parse_rules({"size"}));
     const auto b = number_of(summary, "B_over_c[s]"), d = number_of(summary, "d_over_c[m^2/s]");
     all.held_b += b.low <= b_over_c && b_over_c <= b.high ? 1 : 0;
     all.held_d += d.low <= d_over_c && d_over_c <= d.high ? 1 : 0;
@@ -126,7 +126,7 @@ TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
 {
   synthetic::Ar1 noise(0);
   auto data = noisy({60}, 0.1, noise);
-  const auto sure = closure_summary(data, parse_rules({"size"}), {});
+  const auto sure = closure_summary(data, parse_rules({"size"}));
   const double of_c = width_of(sure, "c@size[1/s]") / number_of(sure, "c@size[1/s]").value;
   const double of_b = width_of(sure, "B_over_c[s]") / number_of(sure, "B_over_c[s]").value;
   EXPECT_NEAR(of_c, of_b, 0.1 * of_b);  // blocks may be longer by one
@@ -139,7 +139,7 @@ TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
     const double off = 0.01 * noise.normal() * point.product;
     for (auto& excess : point.excess) excess += off;
   }
-  const auto off = closure_summary(data, parse_rules({"size"}), {});
+  const auto off = closure_summary(data, parse_rules({"size"}));
   EXPECT_GT(width_of(off, "B@size"), 1e-4);
   EXPECT_NEAR(width_of(off, "p_zero"), width_of(off, "B@size") / 0.8, 1e-10);
 }
@@ -148,15 +148,15 @@ TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
 TEST(SegregationClosure, CollinearRegressorsAreReportedWithWhatTheyMakeOfTheError)
 {
   synthetic::Ar1 noise(0);
-  const auto apart = closure_summary(noisy({60}, 0.1, noise), two_rules, {});
+  const auto apart = closure_summary(noisy({60}, 0.1, noise), two_rules);
   EXPECT_LT(std::abs(number_of(apart, "regressor_correlation").value), 0.3);
   EXPECT_LT(number_of(apart, "error_factor").value, 1.05);
   EXPECT_FALSE(remarks_hold(apart, "collinear"));
 
   auto data = noisy({60}, 0.1, noise, true);
-  EXPECT_GT(number_of(closure_summary(data, two_rules, {}), "error_factor").value, 100);
+  EXPECT_GT(number_of(closure_summary(data, two_rules), "error_factor").value, 100);
   data.instruments = Instruments::same;
-  const auto steady = closure_summary(data, two_rules, {});
+  const auto steady = closure_summary(data, two_rules);
   const double r = number_of(steady, "regressor_correlation").value;
   EXPECT_GT(r, 0.9999);
   EXPECT_NEAR(number_of(steady, "error_factor").value, 1 / std::sqrt(1 - r * r), 1e-6);
@@ -232,7 +232,7 @@ TEST(SegregationClosure, RegressorsThatAreTheSameUpToAFactorGiveNoNumber)
   synthetic::Ar1 noise(0);
   auto data = noisy({20}, 0.1, noise);
   for (auto& point : data.points) point.gradient = 2 * point.driving;
-  const auto summary = closure_summary(data, two_rules, {});
+  const auto summary = closure_summary(data, two_rules);
   EXPECT_TRUE(std::isnan(number_of(summary, "B_over_c[s]").value));
   EXPECT_TRUE(remarks_hold(summary, "cannot be told apart"));
 }
@@ -252,7 +252,7 @@ ClosureData two_mixtures()
 // so.
 TEST(SegregationClosure, RunsAreOnePopulationWhateverTheirMixtures)
 {
-  const auto summary = closure_summary(two_mixtures(), parse_rules({"size"}), {4000, 1});
+  const auto summary = closure_summary(two_mixtures(), parse_rules({"size"}));
   const double expected = 2 * 3.182 * b_over_c / 2 * std::sqrt(1. / 3);
   EXPECT_NEAR(width_of(summary, "B_over_c[s]") / expected, 1, 0.1);
   EXPECT_NE(closure_population(4).find("how they differ counts as scatter of runs"),
@@ -264,18 +264,16 @@ TEST(ClosureIntervals, ANumberThatFollowsTheFluxHasTheErrorsOfItsCoefficients)
 {
   synthetic::Ar1 noise(0, 3);
   const auto data = noisy({40, 40, 40, 40}, 0.3, noise);
-  const ClosureResampling resampling;
-  const auto summary = closure_summary(data, two_rules, resampling);
+  const auto summary = closure_summary(data, two_rules);
   const auto b = number_of(summary, "B_over_c[s]"), d = number_of(summary, "d_over_c[m^2/s]");
   const auto half = [](const Estimate& estimate) { return (estimate.high - estimate.low) / 2; };
-  const auto of_b = estimate_from_flux(data, resampling, 7, {2, 0});
+  const auto of_b = estimate_from_flux(data, 7, {2, 0});
   EXPECT_EQ(of_b.value, 7);
   EXPECT_NEAR(half(of_b) / half(b), 2, 1e-9);
-  EXPECT_NEAR(half(estimate_from_flux(data, resampling, 7, {0, 2})) / half(d), 2, 1e-9);
+  EXPECT_NEAR(half(estimate_from_flux(data, 7, {0, 2})) / half(d), 2, 1e-9);
   // Both grow together here (estimate_correlation), so that errors of their sum add up.
   EXPECT_GT(number_of(summary, "estimate_correlation").value, 0);
-  EXPECT_GT(half(estimate_from_flux(data, resampling, 7, {1 / half(b), 1 / half(d)})),
-            std::sqrt(2));
+  EXPECT_GT(half(estimate_from_flux(data, 7, {1 / half(b), 1 / half(d)})), std::sqrt(2));
 }
 
 }  // namespace

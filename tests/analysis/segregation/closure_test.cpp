@@ -129,7 +129,7 @@ NamedNumbers summary_of(const std::vector<Table>& tables,
                         const std::vector<PartitionRule>& rules = two_rules,
                         const ClosureFilter& filter = {})
 {
-  return closure_summary(read_closure(tables, rules, filter), rules, {});
+  return closure_summary(read_closure(tables, rules, filter), rules);
 }
 
 TEST(SegregationClosure, CoefficientsForOtherRunsComeWithTheMeanShearOfTheFittedRows)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Autocorrelation times, blocks and standard errors of series short enough for calculation by hand.
-#include "analysis/statistics/bootstrap.hpp"
-#include "analysis/statistics/confidence.hpp"
+// Autocorrelation times and standard errors of series short enough for calculation by hand.
+#include "analysis/statistics/correlated_windows.hpp"
 #include "analysis/statistics/exponential_approach.hpp"
 
 #include <gtest/gtest.h>
@@ -48,48 +47,6 @@ TEST(AutocorrelationByHand, TheSumIsFreedOfWhatSubtractingTheMeanTakes)
   Eigen::VectorXd series(12);
   series << 1, 0, 1, 0, 1, 0, -1, 0, -1, 0, -1, 0;
   EXPECT_NEAR(autocorrelation_time(series, {12}), 25. / 12, 1e-12);
-}
-
-TEST(DependenceByHand, OfTwoTheWiderIntervalCounts)
-{
-  const auto of = worse({2, 3, 10, 1.5}, {4, 5, 20, 1.2});
-  EXPECT_EQ(of.time, 4);
-  EXPECT_EQ(of.block, 5u);
-  EXPECT_EQ(of.effective_windows, 10);
-  EXPECT_EQ(of.effective_runs, 1.2);
-}
-
-// Blocks of 3 out of 10 windows begin at 0 to 7 with equal probability; a sample is three blocks and
-// one window of a fourth block. Window 0 is in a block that begins at 0 (and may be the window of the
-// fourth): 4/8. Window 9 is in a block that begins at 7, and never in the fourth: 3/8.
-TEST(BootstrapByHand, TheLastBlockIsDrawnAsOftenAsTheFirst)
-{
-  const Bootstrap bootstrap({10}, 8000, 1);
-  const auto& times = bootstrap.blocks(3);
-  EXPECT_NEAR(times.col(0).mean(), 4. / 8, 0.04);
-  EXPECT_NEAR(times.col(9).mean(), 3. / 8, 0.04);
-}
-
-// The numbers of times that windows with the same number are drawn in two runs are uncorrelated: of 20 x
-// 2000 pairs of counts with variance near 1 the mean product is 0 to 1/200.
-TEST(BootstrapByHand, RunsAreDrawnIndependentlyOfEachOther)
-{
-  const Bootstrap bootstrap({20, 20}, 2000, 1);
-  const Eigen::ArrayXXd excess = bootstrap.blocks(1).array() - 1;
-  EXPECT_NEAR((excess.leftCols(20) * excess.rightCols(20)).mean(), 0, 0.03);
-  EXPECT_NEAR(excess.square().mean(), 1 - 1. / 20, 0.05);  // binomial variance
-}
-
-// As AnIntervalOfWindowsByHand, but with two runs: 40 effective windows in blocks of 4 are 10 blocks; two
-// means have been fitted, so 8 degrees of freedom are left; rho = 1/2, hence 11/16 at the ends of blocks.
-TEST(BootstrapByHand, EveryRunCostsTheWindowsOneDegreeOfFreedom)
-{
-  Eigen::VectorXd samples(100);  // of variance 100/99
-  for (Eigen::Index k = 0; k < 100; ++k) samples[k] = k % 2 == 0 ? 1 : -1;
-  const auto interval = Bootstrap({20, 20}, 100, 1).window_error(samples, {3, 4, 40, 2}).around(5);
-  const double expected = 2.306004 * std::sqrt(100. / 99 * 10 / 8 * 16 / 11);
-  EXPECT_NEAR(interval.high - 5, expected, 1e-5);
-  EXPECT_NEAR(5 - interval.low, expected, 1e-5);
 }
 
 // 12 windows worth 12/5 independent ones, less one fitted mean: 1.4 degrees; variance 12 x 5 x 2.4/1.4.

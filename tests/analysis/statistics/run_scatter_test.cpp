@@ -29,11 +29,11 @@ TEST(RunScatter, OfValuesIsTheStandardErrorOfTheirMean)
 TEST(RunScatter, IsAboutWhatARunLikeItsMixtureWouldAdd)
 {
   const auto weight = list({1, 1, 1, 1});
-  const auto alone = scatter_of_runs(list({-1.5, -0.5, 0.5, 1.5}) / 4, weight);
-  const auto shifted = scatter_of_runs(list({8.5, 9.5, 10.5, 11.5}) / 4, weight);
+  const auto alone = deviation_of_runs(list({-1.5, -0.5, 0.5, 1.5}) / 4, weight).error();
+  const auto shifted = deviation_of_runs(list({8.5, 9.5, 10.5, 11.5}) / 4, weight).error();
   EXPECT_NEAR(alone.error, std::sqrt(5.0 / 12), 1e-15);
   EXPECT_NEAR(shifted.error, alone.error, 1e-14);
-  const auto in_proportion = scatter_of_runs(list({0.2, 0.4}), list({1, 2}));
+  const auto in_proportion = deviation_of_runs(list({0.2, 0.4}), list({1, 2})).error();
   EXPECT_NEAR(in_proportion.error, 0, 1e-15);
   EXPECT_NEAR(in_proportion.degrees, 9.0 / 5 - 1, 1e-15);
 }

@@ -66,7 +66,7 @@ def of_simulator(trajectory, begin):
 
 def of_fit(folder, table, **options):
     arguments = [x for key, value in options.items() for x in (f"--{key}", value)]
-    fit = json.loads(tool(folder, "grseg-fit", table, "--json", "--bootstrap", "0", *arguments))
+    fit = json.loads(tool(folder, "grseg-fit", table, "--json", *arguments))
     return [row["value"] for row in fit["numbers"] if row["quantity"] == "B"]
 
 

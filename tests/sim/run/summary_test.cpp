@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sim/run/summary.hpp"
 
+#include "sim/scene/deposition.hpp"
+#include "sim/scene/geometry.hpp"
 #include "tests/sim/small_chute.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
 
 namespace grseg {
 namespace {
@@ -26,6 +31,51 @@ TEST(Summary, TellsTheSlopeAtTheEndOfARunThatTurns)
 {
   const auto scene = small_chute::scene({"--slope", "20", "--slope-rate", "0.5"});
   EXPECT_TRUE(says(text_of({}, scene, 4), "22 at t = 4 s"));
+}
+
+// A bed that moves like a block, by 0.1 m/s.
+TEST(Summary, TellsHowTheBedMovesAtTheEnd)
+{
+  const auto scene = small_chute::scene();
+  auto simulation = release(deposit<2>(scene), scene);
+  const auto& grains = simulation.world().grains;
+  double mass = 0, of_diameter = 0, area = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains.fixed[g]) continue;
+    simulation.set_velocity(g, {0.1, 0});
+    mass += grains.mass[g];
+    of_diameter += grains.mass[g] * 2 * grains.radius[g];
+    area += std::numbers::pi * grains.radius[g] * grains.radius[g];
+  }
+  const auto end = end_of_flow(simulation, scene);
+  EXPECT_NEAR(end.mean_velocity, 0.1, 1e-12);
+  EXPECT_NEAR(end.surface_velocity, 0.1, 1e-12);
+  const double height = bed_height(simulation, scene.geometry->boundaries(scene).top);
+  EXPECT_NEAR(end.solid_fraction, area / (scene.length * height), 1e-12);
+  const double weight = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180);
+  EXPECT_NEAR(end.inertial_number * 2 * height * std::sqrt(end.solid_fraction * weight * height),
+              5 * 0.1 * of_diameter / mass, 1e-12);
+  EXPECT_FALSE(end.is_jammed());
+}
+
+/// Text of the summary of a bed all of whose grains stand still.
+std::string text_at_rest(const Scene& scene)
+{
+  auto simulation = release(deposit<2>(scene), scene);
+  const auto& fixed = simulation.world().grains.fixed;
+  for (std::size_t g = 0; g < fixed.size(); ++g)
+    if (!fixed[g]) simulation.set_velocity(g, {0, 0});
+  RunSummary summary;
+  summary.end_of_flow = end_of_flow(simulation, scene);
+  return to_text(summary, scene, {});
+}
+
+TEST(Summary, SaysThatABedAtRestIsJammedUnlessItIsShaken)
+{
+  EXPECT_TRUE(says(text_at_rest(small_chute::scene()), "remark     the bed is at rest or creeps"));
+  EXPECT_FALSE(says(
+      text_at_rest(small_chute::scene({"--shake-amplitude", "1mm", "--shake-frequency", "10"})),
+      "creeps"));
 }
 
 TEST(Summary, SaysHowFarABedIsFromItsDepth)

@@ -195,6 +195,34 @@ TEST(BaseRow, HoldsItsGrainsInAFlowUpToTheWidestGapsThatItsKeysMayHave)
   }
 }
 
+TEST(BaseRow, OfSpheresIsLoweredOverTheWholeRange)
+{
+  const Words spheres{"--dimension", "3", "--length", "20dS", "--width", "12dS"};
+  auto lowered = spheres;
+  lowered.insert(lowered.end(), {"--base-height-spread", "1dS"});
+  const auto tops = range_of(tops_of(base_of(lowered)));
+  EXPECT_NEAR(tops.most, 0, 1e-15);
+  EXPECT_NEAR(tops.least, -0.005, 1e-15);
+  EXPECT_NEAR(tops.mean, -0.0025, 1e-15);
+  const auto regular = base_of(spheres), base = base_of(lowered);
+  ASSERT_EQ(base.position.size(), regular.position.size());
+  for (std::size_t k = 0; k < base.position.size(); ++k)
+    EXPECT_EQ(base.position[k].z(), regular.position[k].z());
+}
+
+// Three beads that touched have a hole of 2/sqrt(3) sqrt(1 + h^2) - 1 d_L if their heights differ by h
+// d_L; the smallest grain retains 0.9 x 0.48 d_L, up to h = 0.7335.
+TEST(BaseRow, OfSpheresIsRefusedWhereGrainsCouldFallThrough)
+{
+  const Words spheres{"--dimension", "3", "--length", "20dS", "--width", "12dS"};
+  for (const auto& [height, complaint] :
+       {std::pair{"0.73dL", ""}, {"0.74dL", "base-height-spread"}}) {
+    auto words = spheres;
+    words.insert(words.end(), {"--base-height-spread", height});
+    EXPECT_EQ(complaint_about(words), complaint) << height;
+  }
+}
+
 TEST(BaseRow, ThatGrainsCouldFallThroughIsRefused)
 {
   // The smallest grain is 0.96 d_S = 0.48 d_L: gaps of 0.43 d_L retain it, gaps of 0.44 d_L do not.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "sim/scene/scene.hpp"
+#include "sim/step/simulation.hpp"
+
+#include <limits>
+
+namespace grseg {
+
+/// How a bed flows when its run ends. All NaN in other geometries, in shaken beds, without gravity
+/// onto the base, and without grains.
+struct EndOfFlow {
+  double mean_velocity = std::numeric_limits<double>::quiet_NaN();  // m/s, along x, by mass
+  /// m/s, along x, by mass, of grains less than 2 d_S below the surface of a flat bed (bed_height).
+  double surface_velocity = mean_velocity;
+  double solid_fraction = mean_velocity;  // volume (area) of grains over the volume of a flat bed
+  /// Inertial number of a steady chute with this mean velocity U: 5 U d/(2 H sqrt(nu g cos(theta) H)),
+  /// d: mean diameter by mass, H: height, nu: solid fraction (Jop, Forterre & Pouliquen, Nature 441,
+  /// 727, 2006, with Bagnold's profile).
+  double inertial_number = mean_velocity;
+
+  /// True below the inertial number 1e-3, where flows are quasi-static (GDR MiDi, Eur. Phys. J. E 14,
+  /// 341, 2004).
+  bool is_jammed() const { return inertial_number < 1e-3; }
+};
+
+template <int D>
+EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene);
+
+}  // namespace grseg
