@@ -24,7 +24,12 @@ void add_approach(const std::vector<BedState>& states, bool against_time, NamedN
 {
   const auto x = numbers_of(states, against_time ? &BedState::time : &BedState::strain);
   const auto y = numbers_of(states, &BedState::large);
-  const auto fit = fit_approach(x, y);
+  auto fit = fit_approach(x, y);
+  const double surface = numbers_of(states, &BedState::bed).maxCoeff();
+  if (fit.trouble.empty() && !(fit.end.value > 0 && fit.end.value < surface)) {
+    fit = {};
+    fit.trouble = "would end outside the bed";
+  }
   const std::string unit = against_time ? "[s]" : "_strain", kind = against_time ? "" : "_strain";
   add_all(summary.numbers, {{"y_L_start" + kind + "[m]", fit.start},
                             {"y_L_end" + kind + "[m]", fit.end},
@@ -99,6 +104,10 @@ void add_mixing(const std::vector<BedState>& states, const std::vector<std::size
         : most == means.begin() ? "first"
                                 : "last"));
   }
+  if (most->mixing > 1)
+    summary.remarks.emplace_back(
+        "mixing_most: above 1 the layers differ less than those of a random mixture; by how much has "
+        "no meaning");
   add_all(summary.numbers, {{"mixing_start", about(means.front())},
                             {"mixing_most", about(*most)},
                             {"mixing_end", about(means.back())},

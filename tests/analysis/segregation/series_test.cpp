@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -68,6 +69,7 @@ std::vector<BedState> history(int count, double scatter)
     const double t = 0.05 * k;
     now.strain = 20 * t - t * t / 10;
     now.large = 0.25 - 0.2 * std::exp(-now.strain / 200);
+    now.bed = 0.5;
     now.mixing = 0.9 - 0.001 * (t - 16.3) * (t - 16.3) + kick(random);
     states.push_back(now);
   }
@@ -104,6 +106,33 @@ TEST(SegregationTimes, TheBedIsMixedMostWhereItsIndexIsLargest)
   EXPECT_LT(time.high - time.low, 3 * 1.25);
   EXPECT_NEAR(number(summary, "mixing_most").value, 0.9, 1e-3);
   EXPECT_NEAR(number(summary, "mixing_start").value, 0.9 - 0.001 * 15.7 * 15.7, 1e-3);
+}
+
+/// True if one of the remarks contains these words.
+bool remarks(const NamedNumbers& summary, const std::string& words)
+{
+  return std::ranges::any_of(summary.remarks, [&](const std::string& remark) {
+    return remark.find(words) != std::string::npos;
+  });
+}
+
+// y_L approaches 0.25 m.
+TEST(SegregationTimes, AnEndAboveTheSurfaceIsRefused)
+{
+  auto states = history(1000, 1e-5);
+  for (auto& now : states) now.bed = 0.2;
+  const auto summary = segregation_times(states, std::vector<std::size_t>(40, 25));
+  EXPECT_TRUE(std::isnan(number(summary, "y_L_end[m]").value));
+  EXPECT_TRUE(remarks(summary, "it would end outside the bed"));
+}
+
+TEST(SegregationTimes, AnIndexAboveARandomMixtureIsRemarked)
+{
+  auto states = history(1000, 1e-5);
+  const std::vector<std::size_t> windows(40, 25);
+  EXPECT_FALSE(remarks(segregation_times(states, windows), "above 1"));
+  for (auto& now : states) now.mixing += 0.2;
+  EXPECT_TRUE(remarks(segregation_times(states, windows), "mixing_most: above 1"));
 }
 
 TEST(SegregationTimes, ARunThatEndsTooEarlySaysSo)
