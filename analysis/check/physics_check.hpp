@@ -72,6 +72,7 @@ class PhysicsCheck {
   void end_window();
   std::string why_no_layers() const;
   void add_balances(std::vector<CheckLine>& lines) const;
+  void hold_to_import(CheckLine& line) const;
   void add_contacts(std::vector<CheckLine>& lines) const;
   void add_layers(std::vector<CheckLine>& lines) const;
   void add_drifts(std::vector<CheckLine>& lines) const;

@@ -221,7 +221,7 @@ ScanRange parse_scan(const std::string& text)
       std::sscanf(text.c_str(), "%lf:%lf:%lf%n", &range.first, &range.last, &range.step, &used);
   const bool whole = read == 3 && static_cast<std::size_t>(used) == text.size();
   if (!whole || !(range.first >= 0 && range.first <= range.last && range.last <= 1) ||
-      !(range.step > 0))
+      !(range.step > 0 && std::isfinite(range.step)))
     throw UsageError(
         fmt::format("--scan {}: write first:last:step with 0 <= first <= last <= 1, "
                     "e.g. 0.4:0.9:0.005",

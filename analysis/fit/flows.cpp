@@ -59,14 +59,18 @@ bool holds(std::span<const std::string_view> list, std::string_view word)
 }
 
 /// Keys and values of a table's line "# scene: KEY = VALUE; ..." without keys_left_out; empty if
-/// the table has no such line.
+/// the table has no such line. The slope at t = 0 counts where gravity turns, and so has no value.
 std::map<std::string, std::string> scene_of(const Table& table)
 {
   std::map<std::string, std::string> scene;
+  const bool turns = header_or(table, "gravity_x", "") == "nan";
+  const auto is_left_out = [turns](const std::string& key) {
+    return holds(keys_left_out, key) && !(turns && key == "slope");
+  };
   std::istringstream words(header_or(table, "scene", ""));
   for (std::string word; std::getline(words >> std::ws, word, ';');) {
     const auto equals = word.find(" = ");
-    if (equals != std::string::npos && !holds(keys_left_out, word.substr(0, equals)))
+    if (equals != std::string::npos && !is_left_out(word.substr(0, equals)))
       scene[word.substr(0, equals)] = word.substr(equals + 3);
   }
   return scene;

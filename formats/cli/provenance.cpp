@@ -96,9 +96,9 @@ bool same_setting(const std::string& a, const std::string& b)
   while (words >> word) {
     if (!(others >> other)) return false;
     const auto x = parse_number(word), y = parse_number(other);
-    if (x && y ? std::abs(*x - *y) > setting_round_off * std::max(std::abs(*x), std::abs(*y))
-               : word != other)
-      return false;
+    const bool near =
+        x && y && std::abs(*x - *y) <= setting_round_off * std::max(std::abs(*x), std::abs(*y));
+    if (!near && word != other) return false;
   }
   return !(others >> other);
 }

@@ -91,6 +91,17 @@ TEST_F(CheckedColumn, FailsTheForceBalanceIfAForceIsChanged)
   EXPECT_EQ(failed(column), Names{"force_balance"});
 }
 
+// The force is off by 1 % of itself, and so by at most 1 % of the largest.
+TEST_F(CheckedColumn, HoldsAnImportToTheBalanceThatItAccepted)
+{
+  Column column;
+  column.frames[7].contacts.force[2] *= 1.01;
+  column.description.parameters.numbers["import_tolerance"] = {0.02};
+  EXPECT_EQ(failed(column), Names{});
+  column.description.parameters.numbers["import_tolerance"] = {1e-4};
+  EXPECT_EQ(failed(column), Names{"force_balance"});
+}
+
 TEST_F(CheckedColumn, FailsForceBalanceAndTensionIfAForceChangesSign)
 {
   Column column;

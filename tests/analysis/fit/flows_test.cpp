@@ -148,6 +148,25 @@ TEST(Flows, DifferInTheKeysOfTheirScenesButSeedsAndTimes)
   EXPECT_EQ(flows[2].settings[0], (std::pair<std::string, std::string>{"depth[m]", "0.6"}));
 }
 
+// Where the slope turns, gravity is recorded as nan, and only the scene tells the slope at t = 0.
+TEST(Flows, ThatTurnDifferInTheirSlopesAtTheStart)
+{
+  int runs = 0;
+  const auto turning = [&runs](const char* scene) {
+    auto table = run_of(0.3 + 1e-6 * runs++, "nan");
+    table.header.emplace_back("scene", scene);
+    return table;
+  };
+  const std::vector<Table> tables{turning("slope = 21; slope-rate = 0.1"),
+                                  turning("slope = 24; slope-rate = 0.1"),
+                                  turning("slope = 21; slope-rate = 0.1")};
+  auto read = read_all(tables);
+  const auto flows = find_flows(read, "auto");
+  ASSERT_EQ(flows.size(), 2u);
+  EXPECT_EQ(flows[0].tables, (Numbers{0, 2}));
+  EXPECT_EQ(flows[1].name, "Phi_L = 0.30, slope = 24");
+}
+
 // A list that starts with the same number may still be different.
 TEST(Flows, AListIsNotItsFirstNumber)
 {

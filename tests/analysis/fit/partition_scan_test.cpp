@@ -218,7 +218,7 @@ TEST(PartitionScan, SharesAreExactAndIncludeTheLast)
   EXPECT_EQ(shares[100], 0.9);
   EXPECT_EQ(parse_scan("0:0.3:0.1").shares().size(), 4u);  // 0.3/0.1 is below 3 in binary
   for (const char* wrong : {"0.4:0.9", "0.4:0.9:0", "0.9:0.4:0.1", "0:1.1:0.1", "a:b:c", "0:1:0.1x",
-                            "0:1:1e-9", "nan:1:0.1"})
+                            "0:1:1e-9", "nan:1:0.1", "0.4:0.9:inf"})
     EXPECT_THROW(parse_scan(wrong), UsageError) << wrong;
 }
 

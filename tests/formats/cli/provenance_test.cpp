@@ -93,6 +93,8 @@ TEST(Setting, IsTheSameUpToRoundOff)
   EXPECT_FALSE(same_setting("radius 0.1 0.3", "radius 0.1"));
   EXPECT_FALSE(same_setting("", "0"));
   EXPECT_FALSE(same_setting("unknown", "0.5"));
+  EXPECT_FALSE(same_setting("nan", "0.5"));
+  EXPECT_TRUE(same_setting("radius nan 0.3", "radius nan 0.3"));
 }
 
 class InputTables : public TestInFolder {};
