@@ -166,7 +166,7 @@ void finish(const Scene& scene, const RunOptions& options, Run<D>& run)
   if (interrupted()) throw stopped_at(simulation.time(), options);
   publish_trajectory(options.output, options.overwrite,
                      {.compression = scene.compression, .float32 = scene.float32});
-  if (!options.quiet) tell(next_steps(options.output));
+  if (!options.quiet) tell(next_steps(options.output, scene));
   if (options.strict) refuse_errors(recorder.totals(), scene.small_diameter);
 }
 

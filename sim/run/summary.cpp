@@ -291,11 +291,13 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
   return text + height_in_words(s.deposited_height, scene) + doubts(s.totals, scene, grains);
 }
 
-std::string next_steps(const std::string& output)
+std::string next_steps(const std::string& output, const Scene& scene)
 {
   const auto run = shell_word(output);
+  const bool is_drum = scene.geometry == &drum_geometry;
   return line("next",
-              fmt::format("grseg-stress {} -o stress.tsv, then grseg-fit stress.tsv", run)) +
+              fmt::format("grseg-stress {}{} -o stress.tsv, then grseg-fit stress.tsv{}", run,
+                          is_drum ? " --bins xy" : "", is_drum ? " --component pressure" : "")) +
          line("look", fmt::format("grseg-explore {} -o explore.html", run));
 }
 

@@ -75,7 +75,7 @@ void add_unknown_summary(Parameters& parameters);
 /// Text for the user: the flow, its accuracy, and reasons for doubt with their remedies.
 std::string to_text(const RunSummary& summary, const Scene& scene, const Grains& grains);
 
-/// Text for the user: commands that analyse the trajectory `output`.
-std::string next_steps(const std::string& output);
+/// Text for the user: commands that analyse the trajectory `output`: by layers, of a drum by cells.
+std::string next_steps(const std::string& output, const Scene& scene);
 
 }  // namespace grseg

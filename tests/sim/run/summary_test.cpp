@@ -78,6 +78,16 @@ TEST(Summary, SaysThatABedAtRestIsJammedUnlessItIsShaken)
       "creeps"));
 }
 
+TEST(Summary, ProposesLayersForABedAndCellsForADrum)
+{
+  EXPECT_TRUE(says(next_steps("run.h5", small_chute::scene()),
+                   "grseg-stress run.h5 -o stress.tsv, then grseg-fit stress.tsv\n"));
+  EXPECT_TRUE(says(
+      next_steps("run.h5", small_chute::paper_scene({"--geometry", "drum", "--lateral", "walls"})),
+      "grseg-stress run.h5 --bins xy -o stress.tsv, then grseg-fit stress.tsv "
+      "--component pressure"));
+}
+
 TEST(Summary, SaysHowFarABedIsFromItsDepth)
 {
   const auto scene = small_chute::scene();
