@@ -216,7 +216,7 @@ FAULTS = [
     ("interval: twice as many waves", "analysis/statistics/correlated_windows.cpp",
      "std::pow(effective_number(weight), 2.0 / 3) / 4))", "std::pow(effective_number(weight), 2.0 / 3) / 2))"),
     ("interval: the last wave counts whole", "analysis/statistics/correlated_windows.cpp",
-     "std::min(1.0, number_ + 1 - static_cast<double>(j)) / number_", "1.0 / number_"),
+     "std::min(1.0, number_ + 1 - static_cast<double>(j)) / number_", "(1.0 + 0 * static_cast<double>(j)) / number_"),
     ("interval: waves over windows of equal length", "analysis/statistics/correlated_windows.cpp",
      "middle[k] = before + weight[k] / 2;", "middle[k] = (static_cast<double>(k) + 0.5) + 0 * before;"),
     ("interval: the mean of each run counts as noise", "analysis/statistics/correlated_windows.cpp",

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,6 +58,24 @@ TEST(ErrorOverWindows, CountsTheLastWaveByTheFractionOfTheirNumber)
   const auto error = of_equal(wave(3, 27), {27}).error();
   EXPECT_NEAR(error.error, std::sqrt(2 / 2.25 * 0.25 * 13.5 * 13.5), 1e-11);
   EXPECT_NEAR(error.degrees, 2.25 * 2.25 / (2 + 1. / 16), 1e-12);
+}
+
+// One slow wave alone: its neighbours are alike. In four waves an AR(1) series of their correlation
+// would keep the mean of (1 - rho)^2/(1 - 2 rho cos(pi j/64) + rho^2) over j = 1 ... 4.
+TEST(ErrorOverWindows, IsDividedByWhatTheWavesKeepOfACorrelatedSeries)
+{
+  constexpr Eigen::Index n = 64;
+  Eigen::VectorXd slow(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    slow[k] = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / n);
+  const double c = slow.head(n - 1).dot(slow.tail(n - 1)) / slow.squaredNorm();
+  const double rho = std::min((n * c + 1) / (n - 3), 1 - 2. / n);
+  double kept = 0;
+  for (int j = 1; j <= 4; ++j)
+    kept +=
+        (1 - rho) * (1 - rho) / (1 - 2 * rho * std::cos(std::numbers::pi * j / n) + rho * rho) / 4;
+  EXPECT_LT(kept, 0.5);
+  EXPECT_NEAR(of_equal(slow, {n}).error().error, std::sqrt(512 / kept), 1e-9);
 }
 
 // Runs of 64 and 8 windows have 4 waves and 1: degrees 72^2/(64^2/4 + 8^2/1). What a whole run is
