@@ -234,7 +234,7 @@ template <int D>
 void PhysicsCheck<D>::hold_to_import(CheckLine& line) const
 {
   const auto accepted = run_.parameters().find_number("import_tolerance");
-  if (!accepted || line.verdict != Verdict::failed) return;
+  if (!accepted || line.verdict != Verdict::failed || *accepted <= line.tolerance) return;
   line = judged(line.quantity, line.measured, *accepted,
                 line.remark + "; the tolerance is the one of the import");
 }
