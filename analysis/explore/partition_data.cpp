@@ -4,6 +4,7 @@
 #include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_pairs.hpp"
+#include "analysis/fit/flow_verdict.hpp"
 #include "analysis/fit/flows.hpp"
 #include "analysis/frames/layer_key.hpp"
 
@@ -218,11 +219,12 @@ Json partition_data(const StressTables& input, const PartitionSettings& settings
   object["scan"] = scan_object(selected, settings);
   object["rules"] = Json::array();
   auto doubts = doubts_of_tables(input.sums, selected.tables, selected.samples);
-  if (const auto doubt = doubt_of_start(selected.samples, settings.rules.front(), settings.fit);
-      !doubt.empty())
-    doubts.push_back(doubt);
-  for (auto& fit : fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
-                             settings.rules, settings.fit, false)) {
+  auto fits = fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
+                        settings.rules, settings.fit, false);
+  const auto verdict = verdict_on(selected.tables, selected.samples, fits.front(), settings.fit);
+  object["verdict"] = verdict.sentences;
+  add_all(doubts, verdict.doubts);
+  for (auto& fit : fits) {
     for (const auto& doubt : doubts) add_doubt(fit, doubt);
     object["rules"].push_back(rule_object(fit, selected.flows));
   }

@@ -2,6 +2,7 @@
 #include "analysis/fit/fit_data.hpp"
 
 #include "analysis/fit/cells_inside.hpp"
+#include "analysis/frames/composition.hpp"
 #include "analysis/frames/grouping.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
@@ -64,6 +65,36 @@ std::optional<std::size_t> shear_column(const Table& table)
   return table.has_column(name) ? std::optional(table.column(name)) : std::nullopt;
 }
 
+/// Returns a function that stores the motion of a layer in its row, as far as the table has it: from
+/// sums of grseg-stress, or from means and kinetic energies of grseg-kinetic.
+std::function<void(FitRow&, std::size_t)> motion_reader(const Table& table,
+                                                        const SpeciesList& species)
+{
+  const auto at = [&table](const std::string& name) {
+    return find_column(table, name, "grseg-stress and grseg-kinetic write it");
+  };
+  const auto sums = motion_columns(dimension_of(table));
+  if (table.has_column(without_unit(sums[0])))
+    return [&table, u = at(sums[0]), square = at(sums[1])](FitRow& row, std::size_t number) {
+      row.u = finite_cell(table, number, u) / row.content();
+      row.square = finite_cell(table, number, square) / row.content();
+    };
+  if (!table.has_column("u") || !table.has_column("v")) return [](FitRow&, std::size_t) {};
+  std::vector<std::size_t> masses;
+  for (const auto& word : column_words(species))
+    masses.push_back(at(fmt::format("mass_{}[kg]", word)));
+  return [&table, u = at("u[m/s]"), v = at("v[m/s]"), masses](FitRow& row, std::size_t number) {
+    const auto& cells = table.rows[number];
+    double mass = 0, energy = 0;
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      mass += cells[masses[k]];
+      energy += row.sums.of(OwnSum::inside, k).trace();
+    }
+    row.u = cells[u];
+    row.square = cells[u] * cells[u] + cells[v] * cells[v] + energy / mass;
+  };
+}
+
 std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Quantity quantity,
                               const std::vector<PartitionRule>& rules)
 {
@@ -74,14 +105,17 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
     sums = [reader = ContactSumsReader(table, rules)](std::size_t row) { return reader.read(row); };
 
   const auto keys = read_keys(table, "a table of grseg-stress or grseg-kinetic has it");
-  const auto bottom = plane_of(table) ? std::nullopt : std::optional(table.column("y0"));
+  const bool map = plane_of(table).has_value();
+  const auto bottom = map ? 0 : table.column("y0");
   const auto shear = shear_column(table);
+  const auto read_motion = motion_reader(table, species);
   std::vector<FitRow> rows;
   rows.reserve(table.rows.size());
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (bottom) finite_cell(table, row, *bottom);  // these tables have no row for the whole bed
+    if (!map) finite_cell(table, row, bottom);  // these tables have no row for the whole bed
     rows.emplace_back(FitRow{keys[row], sums(row)}).sums.volume = keys[row].volume;
     if (shear) rows.back().shear = std::abs(table.rows[row][*shear]);
+    read_motion(rows.back(), row);
   }
   return rows;
 }
@@ -284,9 +318,9 @@ std::vector<SpeciesPair> all_pairs(std::size_t species)
   return pairs;
 }
 
-double FitRow::solid() const
+double FitRow::content() const
 {
-  return std::accumulate(sums.content.begin(), sums.content.end(), 0.0) / sums.volume;
+  return std::accumulate(sums.content.begin(), sums.content.end(), 0.0);
 }
 
 std::size_t FitData::number_of_flows() const

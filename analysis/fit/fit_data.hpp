@@ -122,11 +122,14 @@ struct FitData {
 struct FitRow {
   LayerKey key;
   ContactSums<3> sums;
-  // Rate of shear of the mean flow, 1/s: in layers |du/dy|, in a map MapFlow::shear_rate(). NaN in
-  // empty cells, and where the table has no such column.
-  double shear = std::numeric_limits<double>::quiet_NaN();
+  // NaN in empty layers, and where the table has no such column:
+  double shear = no_number;   // rate of shear of the mean flow, 1/s: in layers |du/dy|, in a map
+                              // MapFlow::shear_rate()
+  double u = no_number;       // mean velocity along the layer, m/s
+  double square = no_number;  // mean square of the velocity, m^2/s^2
 
-  double solid() const;  // solid fraction of the layer
+  double content() const;                                   // area, volume or mass of the grains
+  double solid() const { return content() / sums.volume; }  // solid fraction of the layer
 };
 
 /// The rows of one table and its species.

@@ -102,6 +102,7 @@ Header header_of(const FitReport& report)
     lines.emplace_back("one run", fmt::format("{}", fmt::join(names, " ")));
   for (const auto& [over, words] : estimands(report))
     lines.emplace_back("estimand", fmt::format("{}: {}", word_of(over, populations), words));
+  for (const auto& sentence : report.verdict) lines.emplace_back("verdict", sentence);
   for (const auto& doubt : doubts(report)) lines.emplace_back("doubt", doubt);
   return lines;
 }
@@ -282,6 +283,7 @@ std::string to_json(const FitReport& report)
   all["inputs"] = report.inputs;
   for (const auto& [key, value] : report.trust) all[key].push_back(value);
   all["history"] = listed(report.history, [](const auto& line) { return printable(line); });
+  all["verdict"] = report.verdict;
   all["doubts"] = doubts(report);
   return all.dump(2) + '\n';
 }
@@ -473,6 +475,8 @@ std::string short_table(const FitReport& report)
   text += populations_text(report);
   for (const auto& names : report.shared_runs)
     text += fmt::format("counted as one run: {}\n", fmt::join(names, " "));
+  if (!report.verdict.empty()) text += '\n';
+  for (const auto& sentence : report.verdict) text += wrapped("verdict: " + sentence);
   std::string of_doubts;
   for (const auto& doubt : doubts(report)) of_doubts += wrapped("doubt: " + doubt);
   return of_doubts.empty() ? text : text + '\n' + of_doubts;

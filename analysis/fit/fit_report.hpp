@@ -30,7 +30,8 @@ struct FitReport {
   std::vector<std::vector<std::string>>
       shared_runs;                            // for each run with several tables, their names
   std::vector<std::string> doubts_of_tables;  // warnings about the tables (data_doubts.hpp)
-  bool changes = false;                       // B changes in time (doubt_of_change)
+  std::vector<std::string> verdict;  // how the grains move in these times (flow_verdict.hpp)
+  bool changes = false;              // B changes in time (FlowVerdict::b_changes)
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
   bool with_paper = false;  // true: also print the fits of Staron & Phillips (estimators.hpp)
@@ -63,8 +64,7 @@ struct NumberRow {
 
 /// All numbers, in the order of the table. Quantities of a rule: B over each known population,
 /// beginning with RuleFit::over; share, neutral, B_of_thickness, B_minus_size, B_minus_other,
-/// size_exponent; if with_paper: paper_s, paper_B, paper_k, paper_a; effective_windows,
-/// autocorrelation_time[windows].
+/// size_exponent; if with_paper: paper_s, paper_B, paper_k, paper_a.
 /// Quantities common to all rules ("-"): Phi_L, weight_share, runs, points (layers x windows),
 /// p_zero and dB_dp.
 std::vector<NumberRow> number_rows(const FitReport& report);

@@ -3,6 +3,7 @@
 
 #include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_pairs.hpp"
+#include "analysis/fit/flow_verdict.hpp"
 #include "analysis/fit/two_readings.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
@@ -283,12 +284,10 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
       report.trust.push_back(std::move(line));
   for (auto& doubt : doubts_of_tables(tables, all, data))
     report.doubts_of_tables.push_back(std::move(doubt));
-  if (const auto doubt = doubt_of_start(data, rules.front(), settings); !doubt.empty())
-    report.doubts_of_tables.push_back(doubt);
-  if (const auto doubt = doubt_of_change(data, rules.front(), settings); !doubt.empty()) {
-    report.changes = true;
-    report.doubts_of_tables.push_back(doubt);
-  }
+  auto verdict = verdict_on(all, data, fit_rule(data, rules.front(), settings), settings);
+  report.verdict = std::move(verdict.sentences);
+  report.changes = verdict.b_changes;
+  for (auto& doubt : verdict.doubts) report.doubts_of_tables.push_back(std::move(doubt));
   report.history = header_values(tables, "history");
   return report;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/composition.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -11,13 +13,20 @@ void Composition<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
   const std::size_t count = layers_.count(grains, frame);
-  sums_.resize(std::max(sums_.size(), count), Contents(species_));
+  sums_.resize(std::max(sums_.size(), count), {Contents(species_), {0, 0}});
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
     const double y = layers_.height<D>(frame.position[g]), radius = grains.radius[g];
     const double whole = grain_volume<D>(radius);
-    const auto book = [&](std::size_t n, double part) { sums_[n][species] += part; };
+    const Vector<D> velocity = frame.velocity.empty()
+                                   ? Vector<D>::Zero()
+                                   : layers_.turned<D>(frame.velocity[g], frame.position[g]);
+    const auto book = [&, square = velocity.squaredNorm()](std::size_t n, double part) {
+      sums_[n].contents[species] += part;
+      sums_[n].motion.u += part * velocity.x();
+      sums_[n].motion.square += part * square;
+    };
     if (rule_ == GrainArea::centre)
       book(layers_.holding<D>(frame.position[g], y), whole);
     else if (rule_ == GrainArea::clipped)
@@ -38,7 +47,7 @@ void Composition<D>::merge(const Composition& others)
 template <int D>
 typename Composition<D>::Contents Composition<D>::mean(std::size_t layer) const
 {
-  Contents mean = sums_[layer];
+  Contents mean = sums_[layer].contents;
   for (auto& content : mean) content /= static_cast<double>(frames_);
   return mean;
 }
@@ -51,8 +60,23 @@ typename Composition<D>::Contents Composition<D>::mean() const
   return all;
 }
 
+template <int D>
+MotionSums Composition<D>::motion(std::size_t layer) const
+{
+  const auto frames = static_cast<double>(frames_);
+  const auto& sum = sums_[layer].motion;
+  return {sum.u / frames, sum.square / frames};
+}
+
 template class Composition<2>;
 template class Composition<3>;
+
+std::vector<std::string> motion_columns(int dimension)
+{
+  const char* const content = dimension == 3 ? "volume" : "area";
+  return {fmt::format("{}_u[m^{}/s]", content, dimension + 1),
+          fmt::format("{}_v2[m^{}/s^2]", content, dimension + 2)};
+}
 
 template <int D>
 BedHeights bed_heights(const Grains& grains, const Frame<D>& frame)

@@ -10,6 +10,7 @@
 
 #include <cassert>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -20,6 +21,17 @@ namespace grseg {
 enum class GrainArea { clipped, centre, kernel };
 inline constexpr Choice<GrainArea> grain_areas[] = {
     {"clipped", GrainArea::clipped}, {"centre", GrainArea::centre}, {"kernel", GrainArea::kernel}};
+
+/// Sums over the mobile grains of a layer, weighted by area (m^2) or volume (m^3), as a mean over
+/// frames. Divided by the area or volume of the grains they are means.
+struct MotionSums {
+  double u = 0;       // of the velocity along the layer (x; in annuli round), m^D m/s
+  double square = 0;  // of the square of the velocity, m^D m^2/s^2
+
+  static constexpr auto members = std::tuple(&MotionSums::u, &MotionSums::square);
+};
+/// Names of the two columns, "area_u[m^3/s]" and "area_v2[m^4/s^2]".
+std::vector<std::string> motion_columns(int dimension);
 
 /// Area (m^2) or volume (m^3) of the mobile grains of each species in each layer, as a mean over
 /// the frames. The local composition phi of a species is its part of the sum over all species. The
@@ -47,14 +59,21 @@ class Composition {
   Contents mean(std::size_t layer) const;
   /// Sum over all layers of the mean contents.
   Contents mean() const;
+  /// Motion in a layer; 0 if frames were read without velocities.
+  MotionSums motion(std::size_t layer) const;
 
  private:
+  struct Sums {
+    Contents contents;
+    MotionSums motion;
+    static constexpr auto members = std::tuple(&Sums::contents, &Sums::motion);
+  };
   Layers layers_;
   GrainArea rule_;
   std::optional<Kernel> kernel_;
   std::size_t species_;
   std::size_t frames_ = 0;
-  std::vector<Contents> sums_;
+  std::vector<Sums> sums_;
 };
 
 /// Heights of the bed, m; NaN if they are not known.

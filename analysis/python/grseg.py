@@ -739,7 +739,9 @@ def _stress_columns(run, power):
     if power is not None:
         stems += [names.pair("Mpower", a, b) for a, b in _pairs(count)]
     contents = [f"{name}[m^{run.dimension}]" for name in names.contents]
-    return contents + names.numbers() + _with_components(stems, names.axes, "N m")
+    word = "volume" if run.dimension == 3 else "area"
+    motion = [f"{word}_u[m^{run.dimension + 1}/s]", f"{word}_v2[m^{run.dimension + 2}/s^2]"]
+    return contents + motion + names.numbers() + _with_components(stems, names.axes, "N m")
 
 
 def _stress_header(power):
@@ -751,20 +753,20 @@ def _contact_sums(run, layers, frames, power):
     """Values of _stress_columns [layers, columns]."""
     species = len(run.species)
     bins = _code(0, species) + species
-    content, number = np.zeros((0, species, 1)), np.zeros((0, bins, 1))
+    content, motion, number = np.zeros((0, species, 1)), np.zeros((0, 1, 2)), np.zeros((0, bins, 1))
     # Sums of force (x) a part of the branch. whole: the whole branch. cut: from the centre of the larger grain, or of
     # the grain at the base, to the contact point. size, power: the larger grain's share by size and by power:Q.
     sums = {name: np.zeros((0, bins, run.dimension**2)) for name in ("whole", "cut", "size", "power")}
     for block in run._blocks(frames):
         counts = layers.counts(block)
         most = counts.max(initial=1)
-        content, number = _grow(content, most), _grow(number, most)
+        content, motion, number = (_grow(values, most) for values in (content, motion, number))
         sums = {name: _grow(values, most) for name, values in sums.items()}
-        _add_contents(run, layers, block, counts, content)
+        _add_contents(run, layers, block, counts, content, motion)
         _add_contacts(run, layers, block, counts, number, sums, power)
     own, base = [_code(k, k) for k in range(species)], [_code(k, species) for k in range(species)]
     mixed = [_code(a, b) for a, b in _pairs(species)]
-    parts = [content, number, sums["whole"][:, own], sums["whole"][:, mixed], sums["size"][:, mixed],
+    parts = [content, motion, number, sums["whole"][:, own], sums["whole"][:, mixed], sums["size"][:, mixed],
              sums["cut"][:, mixed], sums["cut"][:, base], sums["whole"][:, base]]
     if power is not None:
         parts.append(sums["power"][:, mixed])
@@ -779,9 +781,12 @@ def _part_below(dimension, r, height):
     return r * r * (math.pi / 2 + np.arcsin(d / r)) + d * np.sqrt(r * r - d * d)
 
 
-def _add_contents(run, layers, block, counts, content):
-    """Adds areas or volumes of the grains to `content`, cut at the edges of layers."""
+def _add_contents(run, layers, block, counts, content, motion):
+    """Adds areas or volumes of the grains to `content`, cut at the edges of layers, and to `motion` these areas or volumes
+    times the velocity along x and times the square of the velocity."""
     place, grain = block.mobile_grains
+    velocity = block.grains("velocity").reshape(block.heights.size, -1).take(place, axis=0)
+    u, square = velocity[:, 0], (velocity**2).sum(axis=1)
     y, r, kind = block.heights.take(place), run.radius.take(grain), run.kind.take(grain)
     last = np.repeat(counts - 1, block.counted.sum(axis=1))
     n, last = np.minimum(layers.at(y - r), last), np.minimum(layers.at(y + r), last)
@@ -792,7 +797,9 @@ def _add_contents(run, layers, block, counts, content):
         here = whole.copy()
         here[cut] = _part_below(run.dimension, r.take(cut), layers.bottom(n.take(cut) + 1) - y.take(cut))
         _book(content, n * len(run.species) + kind, [here - below])
-        n, last, y, r, kind, whole, below = (values.take(cut) for values in (n + 1, last, y, r, kind, whole, here))
+        _book(motion, n, [(here - below) * u, (here - below) * square])
+        n, last, y, r, kind, whole, u, square, below = (
+            values.take(cut) for values in (n + 1, last, y, r, kind, whole, u, square, here))
 
 
 def _add_contacts(run, layers, block, counts, number, sums, power):

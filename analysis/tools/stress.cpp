@@ -83,18 +83,21 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
     return map ? stress_fields(sums, species, how) : std::vector<Cell>{};
   };
   auto columns = content_columns(species, D);
+  add_all(columns, motion_columns(D));
   add_all(columns, no_contacts.columns(species));
   add_all(columns, columns_of(fields_of(ContactSums<D>(species.size()))));
   TableWriter table(loop, command, settings, columns);
 
   for (const auto& window : loop.windows()) {
     const auto [composition, stress] =
-        loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
+        loop.sum<D>(window, {.velocity = true, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
       auto row = composition.mean(layer);
+      const auto motion = composition.motion(layer);
       auto sums = map ? stress.mean(layer).sums : ContactSums<D>(0);
       sums.content = row;
       sums.volume = loop.layers().volume(layer);
+      add_all(row, {motion.u, motion.square});
       add_all(row, stress.row(layer));
       table.add(window, layer, add_all(row, values_of(fields_of(sums))));
     }

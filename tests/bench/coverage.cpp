@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_pairs.hpp"
+#include "analysis/statistics/steady_series.hpp"
 #include "tests/analysis/correlated_windows.hpp"
 
 #include <fmt/format.h>
@@ -106,35 +106,66 @@ void print_drift(double rho, std::size_t windows)
   std::fflush(stdout);
 }
 
-/// Prints how often a start is found in a steady series, and in a series whose first tenth is off by
-/// `start` standard deviations of a window.
+/// Adds to each run of `series` a function of the fraction of the run that has passed.
+template <class Of>
+Eigen::VectorXd added(Eigen::VectorXd series, const RunLengths& runs, const Of& of)
+{
+  Eigen::Index k = 0;
+  for (const auto length : runs)
+    for (std::size_t window = 0; window < length; ++window)
+      series[k++] += of((static_cast<double>(window) + 0.5) / static_cast<double>(length));
+  return series;
+}
+
+bool shows_start(const Series& series, const RunLengths& runs)
+{
+  const auto start = start_of(series, runs);
+  return start && start->is_seen();
+}
+
+/// Prints how often a start and a change are seen in steady series and in series with a start, 2 or 4
+/// exp(-10 x) standard deviations of a window at the fraction x of a run, or a drift of 1, 2 or 4 over
+/// the run; and the coverage of the mean without the start that is found.
 void print_starts()
 {
   fmt::print(
-      "# share of the trials with a start: none, of 1 and of 2 standard deviations of a window\n"
-      "# rho runs windows | none  1  2 | not told\n");
+      "# share of the trials with a start: steady, start of 2, of 4; with a change: steady, drift of 1, 2, 4;\n"
+      "# coverage of the mean after a start of 4, all windows and without the start that is found\n"
+      "# rho runs windows | none  2  4 | none  1  2  4 | all  without\n");
   for (const double rho : {0.0, 0.5, 0.8})
     for (const auto& runs :
          {RunLengths{16}, RunLengths{48}, RunLengths{120}, RunLengths{48, 48, 48, 48}}) {
       Ar1 noise(rho);
-      int seen[3] = {}, untold = 0;
+      int starts[3] = {}, changes[4] = {};
+      Tally all(0), without(0);
       for (int trial = 0; trial < trials; ++trial) {
         const auto steady = noise.series(runs, 0);
-        for (int start = 0; start < 3; ++start) {
-          auto series = steady;
-          for (std::size_t run = 0; run < runs.size(); ++run)
-            series
-                .segment(static_cast<Eigen::Index>(run * runs[0]),
-                         std::max<Eigen::Index>(1, static_cast<Eigen::Index>(runs[0] / 10)))
-                .array() += start;
-          const auto found = start_of_flow(series, runs);
-          seen[start] += found && found->chance < 0.025;
-          untold += start == 0 && !found;
-        }
+        for (int k = 0; k < 3; ++k)
+          starts[k] += shows_start(
+              Series(added(steady, runs, [k](double x) { return 2 * k * std::exp(-10 * x); })),
+              runs);
+        for (int k = 0; k < 4; ++k)
+          changes[k] += change_of(Series(added(steady, runs,
+                                               [size = k == 0 ? 0 : std::pow(2, k - 1)](double x) {
+                                                 return size * x;
+                                               })),
+                                  runs)
+                            ->is_seen();
+        const Series started(added(steady, runs, [](double x) { return 4 * std::exp(-10 * x); }));
+        const auto mean = mean_over_windows(started.above, runs).estimate();
+        all.add(mean.value, mean);
+        const double out = seen_start(started, runs);
+        auto left = runs;
+        const auto rest = started.without_start(out > 0.5 ? 0 : out, left);
+        const auto later = mean_over_windows(rest.above, left).estimate();
+        without.add(later.value, later);
       }
       const auto share = [](int count) { return static_cast<double>(count) / trials; };
-      fmt::print("{:3} {:4} {:7} | {:.3f} {:.3f} {:.3f} | {:.3f}\n", rho, runs.size(), runs[0],
-                 share(seen[0]), share(seen[1]), share(seen[2]), share(untold));
+      fmt::print(
+          "{:3} {:4} {:7} | {:.3f} {:.3f} {:.3f} | {:.3f} {:.3f} {:.3f} {:.3f} | {:.3f} {:.3f}\n",
+          rho, runs.size(), runs[0], share(starts[0]), share(starts[1]), share(starts[2]),
+          share(changes[0]), share(changes[1]), share(changes[2]), share(changes[3]),
+          all.coverage(), without.coverage());
     }
   std::fflush(stdout);
 }

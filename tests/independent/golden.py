@@ -77,7 +77,10 @@ def in_turn(layers, beds):
 
 
 def stress():
-    return windows(2, areas() | contact_sums())
+    squares = {k: sum(v * v for v in V[k]) for k in "SL"}
+    motion = {"area_u[m^3/s]": sum(MASS[k] * V[k][0] for k in "SL"),
+              "area_v2[m^4/s^2]": sum(MASS[k] * squares[k] for k in "SL")}
+    return windows(2, areas() | motion | contact_sums())
 
 
 def mean_flow():

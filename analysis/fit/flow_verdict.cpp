@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "analysis/fit/flow_verdict.hpp"
+
+#include "analysis/fit/estimators.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace grseg {
+namespace {
+
+/// "0.11", or "0.1 to 0.12" for several runs.
+std::string range_text(const std::vector<double>& numbers)
+{
+  const auto [least, most] = std::ranges::minmax(numbers);
+  const auto low = fmt::format("{:.2g}", least), high = fmt::format("{:.2g}", most);
+  return low == high ? low : low + " to " + high;
+}
+
+/// Time, s, that lies the fraction `left_out` after the begin of the earliest window.
+double time_after(const FitData& data, double left_out)
+{
+  double begin = data.samples.front().key.begin, end = begin;
+  for (const auto& sample : data.samples) {
+    begin = std::min(begin, sample.key.begin);
+    end = std::max(end, sample.key.end);
+  }
+  return begin + left_out * (end - begin);
+}
+
+/// A number per window that is constant in a steady flow, for tables without speeds. For contact
+/// stress it is |sigma_xy|/sigma_yy: the tangent of the slope in a steady chute, and less if the
+/// flow accelerates. For kinetic stress it is sigma_yy, which grows with the speed.
+Eigen::VectorXd stress_by_window(const FitData& data, const FitSettings& settings)
+{
+  Eigen::VectorXd shear = Eigen::VectorXd::Zero(index(number_of_windows(data.runs)));
+  Eigen::VectorXd normal = shear;
+  for (const auto& sample : data.samples) {
+    const auto stress = partial_stress(data.rows[sample.row], {}, settings.base).total;
+    shear[index(sample.window)] += sample.frames * stress(0, 1);
+    normal[index(sample.window)] += sample.frames * stress(1, 1);
+  }
+  return data.quantity == Quantity::kinetic ? normal : (shear.array() / normal.array()).abs();
+}
+
+/// Builds a FlowVerdict, part by part.
+class Judge {
+ public:
+  Judge(const std::vector<FitTable>& tables, const FitData& data, const RuleFit& fit,
+        const FitSettings& settings)
+      : data_(data),
+        fit_(fit),
+        settings_(settings),
+        motion_(motion_of_windows(tables, data, settings.base)),
+        sums_(window_sums(fit_points(data, fit.rule, settings), data.runs)),
+        small_diameter_(tables.front().species.front().diameter)
+  {
+  }
+
+  FlowVerdict verdict()
+  {
+    judge_motion();
+    judge_start();
+    if (fit_.rule.adds_up()) {
+      judge_change();
+      judge_width();
+    }
+    return std::move(verdict_);
+  }
+
+ private:
+  void say(const std::string& sentence) { verdict_.sentences.push_back(sentence); }
+  void doubt(const std::string& sentence) { verdict_.doubts.push_back(sentence); }
+  bool knows_speed() const { return motion_.speed.size() > 0; }
+  /// Speed that rises or falls by more than `steady_within`, unless noise explains it.
+  static bool accelerates(const std::optional<Change>& speed)
+  {
+    if (!speed) return false;
+    const double mean = (speed->first + speed->last) / 2;
+    return std::abs(speed->size()) > steady_within * mean &&
+           (speed->is_seen() || !speed->is_known());
+  }
+
+  void judge_motion()
+  {
+    if (!knows_speed()) return say("motion unknown: the tables have no velocities");
+    const auto speed = fmt::format("r.m.s. speed {:.2g} m/s", Series(motion_.speed).mean());
+    const auto& numbers = motion_.inertial_number;
+    if (numbers.empty() || !std::ranges::all_of(numbers, [](double i) { return i >= 0; }))
+      return say(fmt::format("moves: {}, inertial number unknown", speed));
+    const auto words = fmt::format("inertial number {}, {}", range_text(numbers), speed);
+    if (std::ranges::min(numbers) >= least_inertial_number) return say("flows: " + words);
+    say("rests or creeps: " + words);
+    doubt(
+        fmt::format("the inertial number is below {:g}: this bed rests or creeps, and B is left "
+                    "over from the way in which it came to rest",
+                    least_inertial_number));
+  }
+
+  void judge_start()
+  {
+    const Series motion(knows_speed() ? motion_.speed : stress_by_window(data_, settings_));
+    const auto whole = change_of(motion, data_.runs);
+    if (!whole) return say("too few windows to tell whether the motion is steady");
+    double out =
+        start_to_leave_out(motion, data_.runs, [this](const Series& rest, const RunLengths& runs) {
+          return knows_speed()
+                     ? !accelerates(change_of(rest, runs)) && !accelerates(start_of(rest, runs))
+                     : !has_start(rest, runs);
+        });
+    if (out > 0.5) return say_unsteady(*whole);
+    if (fit_.rule.adds_up()) out = std::max(out, start_of_b());
+    if (!(out > 0)) return say("steady in these times");
+    say(fmt::format("steady since t = {:.4g} s", time_after(data_, out)));
+    doubt(fmt::format("the start of the flow differs from the rest; --begin {:.4g} leaves it out",
+                      time_after(data_, out)));
+  }
+
+  static bool has_start(const Series& series, const RunLengths& runs)
+  {
+    const auto start = start_of(series, runs);
+    return start && start->is_seen();
+  }
+
+  /// Fraction of the runs in which B differs from its later values by more than the composition of
+  /// the layers explains; 0 with a doubt if there is no end to it.
+  double start_of_b()
+  {
+    const double out =
+        start_to_leave_out(Series(sums_.excess_noise()), data_.runs, std::not_fn(has_start));
+    if (out <= 0.5) return out;
+    doubt("B differs between the begin and the end of these times, whatever start is left out");
+    return 0;
+  }
+
+  void say_unsteady(const Change& whole)
+  {
+    const auto thirds = fmt::format("from {:.3g} to {:.3g}", whole.first, whole.last);
+    if (!knows_speed())
+      say("not steady: the stress changes " + thirds);
+    else
+      say(fmt::format("{}: the speed goes {} m/s between the first and the last third of the time",
+                      whole.size() > 0 ? "accelerates" : "slows down", thirds));
+    doubt(
+        "the flow is not steady at any time of these tables; a longer run, and --begin, may reach "
+        "its steady part");
+  }
+
+  /// The change of the height of large grains above small ones, in small diameters.
+  std::string separation() const
+  {
+    if (motion_.height.size() == 0) return "";
+    const auto height = change_of(Series(motion_.height / small_diameter_), data_.runs);
+    if (!height || !height->is_seen() || std::abs(height->size()) < 0.5) return "";
+    return fmt::format("large grains {} by {:.1f} dS against small ones",
+                       height->size() > 0 ? "rise" : "sink", std::abs(height->size()));
+  }
+
+  void judge_change()
+  {
+    const auto moves = separation();
+    const auto b = change_of({sums_.excess(), sums_.weight()}, data_.runs);
+    if (!b || !b->is_known())
+      return say("too few windows to tell whether B changes" + (moves.empty() ? "" : "; " + moves));
+    if (b->is_seen()) {
+      verdict_.b_changes = true;
+      const auto how = fmt::format(
+          "B {} from {:.3f} in the first third of the time to {:.3f} in the "
+          "last",
+          b->size() < 0 ? "falls" : "rises", b->first, b->last);
+      say((moves.empty() ? "not steady: " : "still segregating: ") + how +
+          (moves.empty() ? "" : ", and " + moves));
+      doubt(how +
+            ": this flow has no single B, and a longer run has another; the intervals are "
+            "over these times alone");
+      return;
+    }
+    say(
+        fmt::format("{}B changes by {:.3f} +- {:.3f} from the first to the last third of the time, "
+                    "which may be chance",
+                    moves.empty() ? "" : "still segregating, since " + moves + "; ", b->size(),
+                    b->error.reach()));
+  }
+
+  /// Time or number of runs after which the interval of B has the wanted half-width.
+  void judge_width()
+  {
+    const auto b = fit_.estimate(&Estimators::B);
+    const double half = (b.high - b.low) / 2, seconds = duration();
+    const bool over_runs = fit_.over == Population::runs;
+    if (!(half > 0) || fit_.flow || data_.number_of_flows() > 1 ||
+        !(over_runs || fit_.over == Population::windows))
+      return;
+    if (half <= wanted_half_width) return say(fmt::format("B is known to +- {:.3f}", half));
+    const double times = times_for(half, over_runs ? 1 : 2.0 / 3);
+    const auto of_runs =
+        fmt::format("{:.0f} such runs", std::ceil(times * static_cast<double>(data_.runs.size())));
+    say(fmt::format("B +- {:g} needs {}", wanted_half_width,
+                    over_runs || verdict_.b_changes
+                        ? of_runs
+                        : fmt::format("{:.3g} s of this flow, or {}", times * seconds, of_runs)));
+  }
+  /// Multiple of the present data with which the half-width `half` becomes the wanted one: the
+  /// error falls with its root, and the degrees of freedom grow with its `power` (of windows 2/3:
+  /// correlated_windows.hpp).
+  double times_for(double half, double power) const
+  {
+    const double error = half / StandardError{1, fit_.degrees}.reach();
+    double times = 1;
+    while (StandardError{error / std::sqrt(times), fit_.degrees * std::pow(times, power)}.reach() >
+           wanted_half_width)
+      times *= 1.02;
+    return times;
+  }
+  /// Time of all windows, s.
+  double duration() const
+  {
+    return data_.window * static_cast<double>(number_of_windows(data_.runs));
+  }
+
+  const FitData& data_;
+  const RuleFit& fit_;
+  const FitSettings& settings_;
+  WindowMotion motion_;
+  WindowSums sums_;
+  double small_diameter_;
+  FlowVerdict verdict_;
+};
+
+}  // namespace
+
+FlowVerdict verdict_on(const std::vector<FitTable>& tables, const FitData& data, const RuleFit& fit,
+                       const FitSettings& settings)
+{
+  return Judge(tables, data, fit, settings).verdict();
+}
+
+}  // namespace grseg
