@@ -1,7 +1,7 @@
 #!/bin/sh
 # manuals_test.sh BUILD: manual pages and completions are installed of the programs that there are, and of no others,
-# which an earlier build may have left; a page is named by what its program does; the Debian package suggests what makes
-# films, figures and reads runs in Python.
+# which an earlier build may have left; a page is named by what its program does and defines its columns; the Debian
+# package suggests what makes films, figures and reads runs in Python.
 set -eu
 build=$1
 folder=$(mktemp -d)
@@ -28,6 +28,10 @@ for page in man/man1/*.1; do
     named=$(sed -n '/^\.SH NAME/ { n; s/\\//g; p; q }' "$page")
   fi
   [ "$named" = "$says" ] || { echo "$page: '$named', not '$says'" >&2; exit 1; }
+done
+
+for page in man/man1/grseg-stress.1; do
+  [ ! -e "$page" ] || grep -A 99 '^\.SH COLUMNS' "$page" | grep -A 1 '^\.B A_{k}b_{ab}\[N m\] or ' | grep -q '^sum of force (x) branch'
 done
 
 for package in ffmpeg gnuplot-nox python3-h5py; do
