@@ -16,26 +16,13 @@
 
 namespace grseg {
 
-/// The columns of grseg-balance after the key columns, with the numbers of a layer; without a layer
-/// only the names matter. X: S, L, or the species' names if they are not two; a: x, y and, in three
-/// dimensions, z.
-///   rho_X jx_X jy_X           density and momentum density
-///   Sc_X_xx, _xy, _yx, _yy    contact stress
-///   Sk_X_xx, _xy, _yy         kinetic stress about the mean velocity of all species in the layer
-///                             and window; xx contains the mean shear within the layer
-///   rate_X_a ... residual_X_a terms of the balance (momentum_balance.hpp) and their residual
-///   change_X_a                expectation of the rates (MomentumBalance::change)
-///   phi_L ... drag_rate       forces of driving_forces.hpp, for two species
+/// The columns of grseg-balance after the key columns (formats/cli/columns.tsv), with the numbers of
+/// a layer; without a layer only the names matter.
 template <int D>
 std::vector<Cell> balance_cells(const MomentumBalance<D>& balance, const SpeciesList& species,
                                 std::optional<std::size_t> layer);
 
-/// The columns that --partition adds after balance_cells(). For each RULE, with X and a as above:
-///   contact_X_a@RULE, interaction_X_a@RULE            C and beta (momentum_balance.hpp)
-///   psi_L@RULE, B@RULE, push@RULE, spread@RULE, drag@RULE   two species only (driving_forces.hpp)
-/// For all rules together:
-///   N_X_a        the contact force on the grains of X, which is C + beta + base under every rule
-///   p_zero       p*, the share at which the contact push changes its sign; two species only
+/// The columns that --partition adds after balance_cells(): columns of each rule, then N and p_zero.
 template <int D>
 std::vector<Cell> partition_cells(const MomentumBalance<D>& balance,
                                   const PartitionedBalance<D>& contacts, const SpeciesList& species,

@@ -14,8 +14,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <sstream>
-#include <string_view>
 
 namespace grseg {
 namespace {
@@ -305,21 +303,6 @@ std::string used_by(const FitReport& report, const RuleFit& fit)
   const std::string codes = report.quantity == Quantity::kinetic ? "" : fit.rule.used_by();
   if (codes.empty()) return "-";
   return codes.size() <= most ? codes : codes.substr(0, codes.rfind(' ', most - 4)) + " ...";
-}
-
-/// Breaks a sentence into lines of at most `readable_width` columns; later lines are indented.
-std::string wrapped(const std::string& sentence)
-{
-  std::string text;
-  std::size_t column = 0;
-  std::istringstream words(sentence);
-  for (std::string word; words >> word; column += word.size()) {
-    const bool breaks = column + 1 + word.size() > readable_width;
-    const std::string_view gap = column == 0 ? "" : breaks ? "\n  " : " ";
-    text.append(gap).append(word);
-    column = breaks && column > 0 ? 2 : column + gap.size();
-  }
-  return text + '\n';
 }
 
 using Line = std::vector<std::string>;  // cells of a row; all rows have the same number

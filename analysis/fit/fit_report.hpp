@@ -62,11 +62,9 @@ struct NumberRow {
   double degrees = no_number;  // degrees of freedom of the interval
 };
 
-/// All numbers, in the order of the table. Quantities of a rule: B over each known population,
-/// beginning with RuleFit::over; share, neutral, B_of_thickness, B_minus_size, B_minus_other,
-/// size_exponent; if with_paper: paper_s, paper_B, paper_k, paper_a.
-/// Quantities common to all rules ("-"): Phi_L, weight_share, runs, points (layers x windows),
-/// p_zero and dB_dp.
+/// All numbers, in the order of the table: of each rule B over every known population, beginning with
+/// RuleFit::over, and what else depends on the rule; then quantities common to all rules ("-").
+/// formats/cli/columns.tsv defines them.
 std::vector<NumberRow> number_rows(const FitReport& report);
 
 /// A table (table.hpp) with one row per number (number_rows). A scan has one row per share p

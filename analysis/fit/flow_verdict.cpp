@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace grseg {
 namespace {
@@ -105,12 +104,8 @@ class Judge {
     const Series motion(knows_speed() ? motion_.speed : stress_by_window(data_, settings_));
     const auto whole = change_of(motion, data_.runs);
     if (!whole) return say("too few windows to tell whether the motion is steady");
-    double out =
-        start_to_leave_out(motion, data_.runs, [this](const Series& rest, const RunLengths& runs) {
-          return knows_speed()
-                     ? !accelerates(change_of(rest, runs)) && !accelerates(start_of(rest, runs))
-                     : !has_start(rest, runs);
-        });
+    double out = knows_speed() ? start_to_leave_out(motion, data_.runs, is_steady)
+                               : seen_start(motion, data_.runs);
     if (out > 0.5) return say_unsteady(*whole);
     if (fit_.rule.adds_up()) out = std::max(out, start_of_b());
     if (!(out > 0)) return say("steady in these times");
@@ -119,18 +114,16 @@ class Judge {
                       time_after(data_, out)));
   }
 
-  static bool has_start(const Series& series, const RunLengths& runs)
+  static bool is_steady(const Series& speed, const RunLengths& runs)
   {
-    const auto start = start_of(series, runs);
-    return start && start->is_seen();
+    return !accelerates(change_of(speed, runs)) && !accelerates(start_of(speed, runs));
   }
 
   /// Fraction of the runs in which B differs from its later values by more than the composition of
   /// the layers explains; 0 with a doubt if there is no end to it.
   double start_of_b()
   {
-    const double out =
-        start_to_leave_out(Series(sums_.excess_noise()), data_.runs, std::not_fn(has_start));
+    const double out = seen_start(Series(sums_.excess_noise()), data_.runs);
     if (out <= 0.5) return out;
     doubt("B differs between the begin and the end of these times, whatever start is left out");
     return 0;

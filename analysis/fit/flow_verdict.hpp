@@ -29,9 +29,9 @@ inline constexpr double steady_within = 0.1;
 inline constexpr double wanted_half_width = 0.01;
 
 /// The verdict on the data that gave `fit`. A start that differs from the rest is sought in the
-/// speed (without speeds in |sigma_xy|/sigma_yy, of kinetic stress in sigma_yy) and in the part of
-/// B that the composition of the layers does not explain (start_of(), change_of()), and its end is
-/// found by start_to_leave_out(). `tables` are those from which `data` was selected.
+/// speed (change_of() and start_of(), by more than `steady_within`; without speeds by seen_start() in
+/// |sigma_xy|/sigma_yy, of kinetic stress in sigma_yy) and in the part of B that the composition of
+/// the layers does not explain (seen_start()). `tables` are those from which `data` was selected.
 FlowVerdict verdict_on(const std::vector<FitTable>& tables, const FitData& data, const RuleFit& fit,
                        const FitSettings& settings);
 

@@ -45,7 +45,7 @@ struct DerivedSettings {
 };
 
 /// All quantities that follow from one row of sums, in the order of the table.
-/// docs/studies/microstructure.md defines each column. Quantities of Staron & Phillips (2015): mean
+/// formats/cli/columns.tsv defines each column. Quantities of Staron & Phillips (2015): mean
 /// forces f_S and f_L over m_S g (figure 6c) and over the pressure at their height (figure 6d), the
 /// pressures P and their estimates Pi (eqs. 8 and 9, figure 5), and B from pressures (eqs. 10 and
 /// 11) and from the micro-structure (eq. 12). NaN if a species, a pair type or a constant of the

@@ -64,10 +64,8 @@ class ForceDistribution {
   void merge(const ForceDistribution& others);
   std::size_t layers() const { return counts_.size(); }
 
-  /// Columns: x0 and x1, the edges of the bin (x1 is inf for the last one); n_*, contacts per
-  /// frame; P_*, the probability density, such that the sum of P (x1 - x0) is the share of contacts
-  /// below the last bin; tail_*, the share of contacts with x >= x0. P is 0 in the last bin. P and
-  /// tail are NaN without contacts.
+  /// Columns of a bin (formats/cli/columns.tsv). The sum of P (x1 - x0) is the share of contacts
+  /// below the last bin; P is 0 in the last bin. P and tail are NaN without contacts.
   static std::vector<std::string> columns();
   /// One row per bin, for a layer or for the whole bed. In the whole bed, f_n is still divided by
   /// the mean of its own layer.

@@ -145,4 +145,18 @@ std::string rounded_table(std::string_view table, int digits)
   return text + end_line(text, cells.lines.size() - 1) + '\n';
 }
 
+std::string wrapped(const std::string& sentence)
+{
+  std::string text;
+  std::size_t column = 0;
+  std::istringstream words(sentence);
+  for (std::string word; words >> word; column += word.size()) {
+    const bool breaks = column + 1 + word.size() > readable_width;
+    const std::string_view gap = column == 0 ? "" : breaks ? "\n  " : " ";
+    text.append(gap).append(word);
+    column = breaks && column > 0 ? 2 : column + gap.size();
+  }
+  return text + '\n';
+}
+
 }  // namespace grseg

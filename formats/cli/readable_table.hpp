@@ -26,4 +26,7 @@ std::string readable_table(std::string_view table, int digits);
 /// stay unchanged.
 std::string rounded_table(std::string_view table, int digits);
 
+/// The sentence in lines of at most `readable_width` columns; later lines are indented.
+std::string wrapped(const std::string& sentence);
+
 }  // namespace grseg

@@ -2,6 +2,7 @@
 #include "formats/cli/tool.hpp"
 
 #include "citation.hpp"
+#include "formats/cli/columns.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
@@ -119,6 +120,9 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())
     all.add_options()("preset", word_option(nullptr, words_of(preset_names)), presets.c_str());
+  const auto columns = columns_text(info.name);
+  if (!columns.empty())
+    all.add_options()("columns", "print the meaning of all columns of the tool's tables, and exit");
   all.add_options()("version", "print the version and exit");
   all.add_options()("cite", "print what to cite, as BibTeX, and exit");
   all.add_options()("completion", word_option(nullptr, shells()),
@@ -128,6 +132,8 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     const auto values = parse(argc, argv, info, all);
     if (values.count("help") > 0) {
       print_help(info, all);
+    } else if (values.count("columns") > 0) {
+      std::cout << columns;
     } else if (values.count("cite") > 0) {
       std::cout << bibtex;
     } else if (values.count("completion") > 0) {

@@ -31,10 +31,10 @@ struct ToolInfo {
 };
 
 /// Main function of every tool. Parses the command line (for an unknown option the message suggests
-/// the nearest known one) and handles --help, --version and --preset. Turns an exception of `body`
-/// into one sentence on standard error and an exit code (errors.hpp). `body` receives the parsed
-/// options, with all arguments that are not options under "input". Values set by a preset count as
-/// defaults.
+/// the nearest known one) and handles --help, --columns, --version and --preset. Turns an exception
+/// of `body` into one sentence on standard error and an exit code (errors.hpp). `body` receives the
+/// parsed options, with all arguments that are not options under "input". Values set by a preset
+/// count as defaults.
 int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_description& options,
              const std::function<void(const po::variables_map&)>& body);
 

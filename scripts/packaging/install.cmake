@@ -28,10 +28,8 @@ foreach(program ${GRSEG_PROGRAMS})
     set(page ${PROJECT_BINARY_DIR}/man/${program}.1)
     add_custom_command(
       OUTPUT ${page}
-      COMMAND
-        sh -c "\"$0\" --no-info --section=1 --output=\"$1\" --name=\"$(\"$2\" --help | sed 's/^[^:]*: //; s/\\.$//; q')\" \"$2\""
-        ${HELP2MAN} ${page} $<TARGET_FILE:${program}>
-      DEPENDS ${program}
+      COMMAND ${PROJECT_SOURCE_DIR}/scripts/packaging/manual ${HELP2MAN} $<TARGET_FILE:${program}> ${page}
+      DEPENDS ${program} ${PROJECT_SOURCE_DIR}/scripts/packaging/manual
       VERBATIM)
     list(APPEND GRSEG_PRINTED ${page})
   endif()

@@ -17,6 +17,7 @@ programs = sys.argv[1]
 SHELLS = "bash", "zsh"
 TYPED = {
     "--partit": "--partition",
+    "--colu": "--columns",
     "sums-o": "sums-of-a-run.tsv",
     "-o sums-o": "sums-of-a-run.tsv",
     "--over eq": "--over equal-flows",

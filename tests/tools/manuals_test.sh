@@ -1,7 +1,7 @@
 #!/bin/sh
 # manuals_test.sh BUILD: manual pages and completions are installed of the programs that there are, and of no others,
-# which an earlier build may have left; a page is named by what its program does; the Debian package suggests what makes
-# films, figures and reads runs in Python.
+# which an earlier build may have left; a page is named by what its program does and defines its columns; the Debian
+# package suggests what makes films, figures and reads runs in Python.
 set -eu
 build=$1
 folder=$(mktemp -d)
@@ -29,6 +29,9 @@ for page in man/man1/*.1; do
   fi
   [ "$named" = "$says" ] || { echo "$page: '$named', not '$says'" >&2; exit 1; }
 done
+
+page=man/man1/grseg-stress.1
+[ ! -e $page ] || sed -n '/^\.SH COLUMNS/,$p' $page | grep -A 1 '^\.B M_{ab}\[N m\] or ' | grep -q '^the same sum over mixed contacts'
 
 for package in ffmpeg gnuplot-nox python3-h5py; do
   grep -q "CPACK_DEBIAN_PACKAGE_SUGGESTS .*[\" ]$package[\",]" "$build/CPackConfig.cmake"
