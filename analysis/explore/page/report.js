@@ -30,11 +30,12 @@ function figure(caption, labels, domains, paths, lines = []) {
 /** Figure of B over the share p, with the band of its intervals. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
-  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
   const grid = fit.scan.p.map((share, k) => [share, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
+  const band = grid.filter(([, , low]) => low !== null);
+  const caption = `B over the share p of a mixed contact that goes to its large grain${band.length ? "; 95 % band" : ""}${isShare(p) ? "; p*" : ""}`;
   const domains = (_, y) => y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
   return figure(caption, {x: "share p", y: "B"}, domains, function* (x, y, chart) {
-    yield ["band", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(grid.filter((row) => row[2] !== null))];
+    yield ["band", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(band)];
     yield ["curve", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid)];
     if (!isShare(p)) return;
     const {top, bottom} = chart.inner;
@@ -151,6 +152,7 @@ function fitSection(fit, heading) {
   const zero = zeroOf(fit);
   const doubts = new Map(); // sentence -> names of its rules
   for (const {name, doubt} of fit.rules) if (doubt) doubts.set(doubt, (doubts.get(doubt) ?? new Set()).add(name));
+  const all = new Set(fit.rules.map(({name}) => name)).size;
   const undecided = [...new Set(fit.rules.filter(({B: [, low, high]}) => low !== null && low <= 0 && high >= 0).map(({name}) => name))];
   return element(
     "section",
@@ -158,9 +160,9 @@ function fitSection(fit, heading) {
     element("h3", {}, heading),
     listOf(element("ul", {class: "verdict"}), fit.verdict),
     element("div", {class: "scroll"}, table(columns, rows)),
-    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: at this share B is 0. ` : "", `${several ? "The intervals of all flows are" : "95 % intervals are"} over ${fit.over}: ${fit.over_words}.`),
+    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: at this share B is 0. ` : "", fit.rules.some(({B: [, low]}) => low !== null) ? `${several ? "The intervals of all flows are" : "95 % intervals are"} over ${fit.over}: ${fit.over_words}.` : ""),
     undecided.length ? element("p", {}, `The sign of B is undecided under ${undecided.join(", ")}: the interval includes 0. A longer run, or further runs with other seeds, make the interval narrower.`) : null,
-    listOf(element("ul", {class: "doubt"}), [...fit.doubts, ...Array.from(doubts, ([doubt, names]) => `${[...names].join(", ")}: ${doubt}`)]),
+    listOf(element("ul", {class: "doubt"}), [...fit.doubts, ...Array.from(doubts, ([doubt, names]) => `${names.size < all ? `${[...names].join(", ")}: ` : ""}${doubt}`)]),
     element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
   );
 }

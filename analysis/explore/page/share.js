@@ -33,8 +33,8 @@ export class Share {
     this.chart = new Chart(byId("share-plot"), {
       scales: {x: scaleLinear().domain([0, 1]), y: scaleLinear()},
       labels: {x: "share p of the large grain", y: "B"},
-      height: 320,
-      above: 24,
+      height: 330,
+      above: 40, // for four lines of names
       name: "B over the share p, with the band of its intervals, p*, and the rules of published programs",
     });
     const {under, marks} = this.chart;
@@ -163,9 +163,7 @@ export class Share {
     const names = [];
     for (const {name, p, B} of marks) {
       this.codes.append("circle").attr("cx", x(p)).attr("cy", y(B)).attr("r", 3.5);
-      const same = names.find((other) => Math.abs(other.at - x(p)) < 3);
-      if (same) same.text += `, ${name}`;
-      else names.push({text: name, at: x(p), to: y(B) - 4, look: "codes"});
+      names.push({text: name, at: x(p), to: y(B) - 4, look: "codes"});
     }
     const [zero] = zeroOf(fit);
     if (isShare(zero)) names.push({text: `p* = ${fixed(zero)}`, at: x(zero), to: this.chart.inner.top, look: "p-zero"});
