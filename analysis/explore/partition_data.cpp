@@ -227,8 +227,9 @@ Json settings_object(const Selected& selected, const PartitionSettings& settings
               {"windows", fmt::format("{}", number_of_windows(data.runs))},
               {"window", fmt::format("{:g} s", data.window)}};
   const auto keys = listed(data.samples, &LayerSample::key);
-  object["times"] = fmt::format("{:g} to {:g} s", std::ranges::min(keys, {}, &LayerKey::begin).begin,
-                                std::ranges::max(keys, {}, &LayerKey::end).end);
+  object["times"] =
+      fmt::format("{:g} to {:g} s", std::ranges::min(keys, {}, &LayerKey::begin).begin,
+                  std::ranges::max(keys, {}, &LayerKey::end).end);
   const auto& pair = data.samples.front().pair;
   if (data.species.size() > 2)
     object["pair"] = data.species[pair.smaller].name + ',' + data.species[pair.larger].name;

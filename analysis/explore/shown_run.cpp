@@ -28,8 +28,7 @@ struct Slice {
 };
 
 template <int D>
-void show_grains(const Grains& grains, const Frame<D>& frame, const Slice& slice,
-                 ShownFrame& shown)
+void show_grains(const Grains& grains, const Frame<D>& frame, const Slice& slice, ShownFrame& shown)
 {
   for (auto* list : {&shown.x, &shown.y, &shown.z}) list->assign(grains.size(), nothing);
   for (std::size_t g = 0; g < grains.size(); ++g) {

@@ -20,8 +20,8 @@ struct ShownWall {
 
 struct ShownFrame {
   std::int64_t step = 0;
-  double time = 0;                  // time of the frame, s
-  Vec2 gravity{0, 0};               // gravity at `time`, m/s^2
+  double time = 0;          // time of the frame, s
+  Vec2 gravity{0, 0};       // gravity at `time`, m/s^2
   std::vector<float> x, y;  // m, by grain; NaN if the grain is absent or not in the slice
   std::vector<float> z;     // m, by grain, from the middle of the slice; 0 for discs, else like x
   /// Grains i and j of contacts with a force, in order of i, then j; j < 0 is wall -j-1 of `walls`.

@@ -8,7 +8,7 @@ import {byId, element, forgetColours, keys} from "./format.js";
 import {Frames} from "./frames.js";
 import {GrainPanel} from "./grain.js";
 import {listenToKeys} from "./keyboard.js";
-import {fitOf, neutralSums, parseRule, shareOf, stressOf, zeroOf} from "./partition.js";
+import {fitOf, intervalOf, neutralSums, parseRule, shareOf, stressOf, zeroOf} from "./partition.js";
 import {Player} from "./player.js";
 import {Profiles} from "./profiles.js";
 import {layoutReport, listenToPrinting, writeReport} from "./report.js";
@@ -259,6 +259,7 @@ async function start() {
     set,
     flush,
     page,
+    interval: (k, text) => intervalOf(page.fits[k], parseRule(text)),
     neutral: (k, p) => neutralSums(page.fits[k], p),
     fit: (k, text) => ({...fitOf(page.fits[k], parseRule(text)), share: shareOf(page.fits[k], parseRule(text))}),
   };
