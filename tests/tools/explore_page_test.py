@@ -381,7 +381,7 @@ def check_plots(page):
     bars = page.run("""const {x, y} = grseg.page.profiles.strength.scales;
       return Array.from(document.querySelectorAll("#layers-plot .bar-of-error"), (e) => ["x1", "x2", "y1"].map((name) => Number(e.getAttribute(name))))
         .map(([a, b, c]) => [x.invert(a), x.invert(b), y.invert(c)])""")
-    assert len(bars) == len(set(arrays["bottom"]))
+    assert len(bars) == len(dots)
     low, high, at = bars[len(bars) // 2]
     tool("stress", RUN, "--quiet", "-o", "of-layer.tsv", "--overwrite")
     row = fitted("of-layer.tsv", "--heights", f"{at - 2:.0f}dS:{at + 2:.0f}dS", "--partition", "size")["size"]["B"]

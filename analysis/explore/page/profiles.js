@@ -120,7 +120,7 @@ export class Profiles {
     const look = (layer) => (layer.B > 0 ? "large" : "small");
     this.bars
       .selectAll("line")
-      .data(layers)
+      .data(inside)
       .join("line")
       .attr("class", (layer) => `bar-of-error ${look(layer)}`)
       .attr("x1", ({low}) => x(low))
