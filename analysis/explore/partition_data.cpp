@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/explore/partition_data.hpp"
 
-#include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_data.hpp"
 #include "analysis/fit/fit_pairs.hpp"
-#include "analysis/fit/flow_verdict.hpp"
 #include "analysis/fit/flows.hpp"
+#include "analysis/fit/make_report.hpp"
 #include "analysis/frames/layer_key.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace grseg {
@@ -23,6 +23,7 @@ using Json = nlohmann::ordered_json;
 using Kind = PartitionRule::Kind;
 
 constexpr ScanRange grid{0, 1, 0.01};
+constexpr ScanRange grid_of_layers{0, 1, 0.05};
 
 /// Rules whose stresses are written into the page; the page computes stresses under other rules from them.
 struct GivenRule {
@@ -96,18 +97,17 @@ FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair
 /// Data of all tables: by window and layer (`samples`), and as means over time (`layers`).
 struct Selected {
   std::vector<FitTable> tables;
-  std::vector<Flow> flows;
   FitData samples, layers;
 };
 Selected select(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                 const PartitionSettings& settings)
 {
   for (const auto& table : tables) refuse_map(table);
-  Selected all{read_fit_tables(tables, Quantity::contact, rules), {}, {}, {}};
+  Selected all{read_fit_tables(tables, Quantity::contact, rules), {}, {}};
   const auto& species = all.tables.front().species;
   if (species.size() < 2)
     throw RunError("there is one species of grains, and B compares two; make them with --classes");
-  all.flows = find_flows(all.tables, "auto");
+  find_flows(all.tables, "auto");
   const auto pair = settings.pair.empty() ? SpeciesPair{} : parse_pair(settings.pair, species);
   all.samples = select_fit_data(all.tables, Quantity::contact, settings.filters, {pair});
   all.layers = layer_means(all.tables, pair);
@@ -158,11 +158,59 @@ Json rule_object(const RuleFit& fit, const std::vector<Flow>& flows)
 Json scan_object(const Selected& selected, const PartitionSettings& settings)
 {
   const auto scan = scan_partition(selected.samples, grid, settings.fit);
-  Json object{{"p", grid.shares()}, {"B", Json::array()}};
-  for (const auto& fit : scan.fits) object["B"].push_back(b_with_interval(fit));
+  Json object{{"p", grid.shares()}, {"B", Json::array()}, {"doubts", Json::array()}};
+  for (const auto& fit : scan.fits) {
+    object["B"].push_back(b_with_interval(fit));
+    object["doubts"].push_back(fit.doubt);
+  }
   if (selected.samples.species.size() <= 2)
     object["p_zero"] = with_interval(scan.line.p_zero.estimate());
   return object;
+}
+
+/// The samples of one layer, in the windows that have one.
+FitData of_layer(FitData data, const std::pair<double, double>& layer)
+{
+  std::erase_if(data.samples, [&](const LayerSample& sample) {
+    return std::pair(sample.key.bottom, sample.key.top) != layer;
+  });
+  std::vector<bool> keep(number_of_windows(data.runs));
+  for (const auto& sample : data.samples) keep[sample.window] = true;
+  return of_windows(data, keep);
+}
+
+/// B of each layer with its interval for each share p.
+Json layers_object(const Selected& selected, const PartitionSettings& settings)
+{
+  std::set<std::pair<double, double>> layers;
+  for (const auto& sample : selected.samples.samples)
+    layers.emplace(sample.key.bottom, sample.key.top);
+  Json object{{"p", grid_of_layers.shares()}, {"layers", Json::array()}};
+  for (const auto& layer : layers) {
+    Json rows = Json::array();
+    for (const auto& fit :
+         scan_partition(of_layer(selected.samples, layer), grid_of_layers, settings.fit).fits)
+      rows.push_back(b_with_interval(fit));
+    object["layers"].push_back({{"bottom", layer.first}, {"B", std::move(rows)}});
+  }
+  return object;
+}
+
+/// The report that grseg-fit makes of these tables and rules.
+FitReport report_of(const StressTables& input, const PartitionSettings& settings,
+                    const Selected& selected)
+{
+  FitOptions options;
+  for (const auto& rule : settings.rules) options.partition.push_back(rule.name());
+  options.component = word_of(settings.fit.component, components);
+  options.base = word_of(settings.fit.base, base_parts);
+  const auto& [smaller, larger] = selected.samples.samples.front().pair;
+  const auto& species = selected.samples.species;
+  if (species.size() > 2) options.pair = species[smaller].name + ',' + species[larger].name;
+  options.flows = "auto";
+  options.filters = settings.filters;
+  options.quiet = true;
+  return make_report({"grseg-fit", "", "", ""}, options, "none", input.sums);
 }
 
 Json settings_object(const Selected& selected, const PartitionSettings& settings)
@@ -178,6 +226,10 @@ Json settings_object(const Selected& selected, const PartitionSettings& settings
               {"runs", fmt::format("{}", data.runs.size())},
               {"windows", fmt::format("{}", number_of_windows(data.runs))},
               {"window", fmt::format("{:g} s", data.window)}};
+  const auto keys = listed(data.samples, &LayerSample::key);
+  object["times"] =
+      fmt::format("{:g} to {:g} s", std::ranges::min(keys, {}, &LayerKey::begin).begin,
+                  std::ranges::max(keys, {}, &LayerKey::end).end);
   const auto& pair = data.samples.front().pair;
   if (data.species.size() > 2)
     object["pair"] = data.species[pair.smaller].name + ',' + data.species[pair.larger].name;
@@ -217,20 +269,16 @@ Json partition_data(const StressTables& input, const PartitionSettings& settings
   object["power_nodes"] = has_powers ? power_nodes() : std::vector<double>{};
   object["settings"] = settings_object(selected, settings);
   object["scan"] = scan_object(selected, settings);
+  object["by_layer"] = layers_object(selected, settings);
+  const auto report = report_of(input, settings, selected);
   object["rules"] = Json::array();
-  auto doubts = doubts_of_tables(input.sums, selected.tables, selected.samples);
-  auto fits = fit_pairs(selected.tables, Quantity::contact, settings.filters, {pair},
-                        settings.rules, settings.fit, false);
-  const auto verdict = verdict_on(selected.tables, selected.samples, fits.front(), settings.fit);
-  object["verdict"] = verdict.sentences;
-  add_all(doubts, verdict.doubts);
-  for (auto& fit : fits) {
-    for (const auto& doubt : doubts) add_doubt(fit, doubt);
-    object["rules"].push_back(rule_object(fit, selected.flows));
-  }
-  const auto over = object["rules"].back()["over"].get<std::string>();
-  object["over"] = over;
-  object["over_words"] = estimand_words(choose(over, "over", populations), selected.flows.size());
+  for (const auto& fit : report.rules) object["rules"].push_back(rule_object(fit, report.flows));
+  const auto over = report.rules.back().over;
+  object["over"] = word_of(over, populations);
+  for (const auto& [population, words] : estimands(report))
+    if (population == over) object["over_words"] = words;
+  object["verdict"] = report.verdict;
+  object["doubts"] = report.doubts_of_tables;
   return object;
 }
 

@@ -31,7 +31,7 @@ Json add_positions(const ShownRun& run, const Box& box, BinaryArrays& arrays)
   const auto cell = box.periodic_x ? Quantisation(0, box.length_x) : Quantisation();
   Json all{{"x", add_codes(run, "x", &ShownFrame::x, arrays, cell, !box.periodic_x)},
            {"y", add_codes(run, "y", &ShownFrame::y, arrays)}};
-  if (box.dimension == 3) all["cut"] = add_codes(run, "cut_radius", &ShownFrame::radius, arrays);
+  if (box.dimension == 3) all["z"] = add_codes(run, "z", &ShownFrame::z, arrays);
   return all;
 }
 
@@ -114,7 +114,6 @@ Json player_data(const ShownRun& run, const Box& box, BinaryArrays& arrays)
     player["gravity"].push_back({frame.gravity.x(), frame.gravity.y()});
   }
   player["contact_point_from_size"] = run.contact_point_from_size;
-  if (box.dimension == 3) player["plane"] = box.length_z / 2;
   return player;
 }
 
@@ -125,10 +124,10 @@ double player_bytes(const TrajectoryReader& run, std::size_t frames)
                index = grains <= 1u << 15 ? sizeof(std::uint16_t) : sizeof(std::uint32_t),
                contacts = static_cast<double>(run.contacts()) / static_cast<double>(run.size());
   constexpr double code = sizeof(std::uint16_t);
-  // Estimate: the plane cuts contacts in a slab as thick as the largest grain.
-  const double cut = box.dimension == 3 ? std::min(1.0, run.large_diameter() / box.length_z) : 1;
+  // The share of the cell that the slice shows.
+  const double shown = box.dimension == 3 ? std::min(1.0, run.large_diameter() / box.length_z) : 1;
   return static_cast<double>(frames) *
-         (grains * box.dimension * code + cut * contacts * (2 * index + 2 * code));
+         (grains * box.dimension * code + shown * contacts * (2 * index + 2 * code));
 }
 
 }  // namespace grseg

@@ -48,11 +48,11 @@ class Quantisation {
   double to_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Packs a ShownRun for a page: positions, radii in the plane and forces become codes of 16 bits, each
+/// Packs a ShownRun for a page: positions and forces become codes of 16 bits, each
 /// quantity with its own Quantisation. Adds to `arrays`
 ///
 ///   species (255: base), radius (m), row       by grain
-///   x, y, and for spheres cut_radius           by frame and grain; codes "x", "y", "cut"
+///   x, y, and for spheres z                    by frame and grain; codes "x", "y", "z"
 ///   contact_offset                             by frame, and one entry more at the end: number of the
 ///                                              frame's first contact
 ///   i, j, along, across                        by contact. i: difference to the i of the previous

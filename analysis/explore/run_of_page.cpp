@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -88,6 +89,37 @@ StressTables sums_of(FrameLoop& loop, const Table* given, const std::string& com
   if (given == nullptr) return make_stress_tables(loop, command);
   require_same_species(*given, loop.species());
   return {{*given}, {}};
+}
+
+/// True if the table, between --begin and --end, has the windows, frames and layers of the loop.
+bool is_over_windows_of(const FrameLoop& loop, const Table& sums, const RowFilter& filter)
+{
+  std::set<std::array<double, 3>> own, of_table;
+  for (const auto& window : loop.windows())
+    own.insert({window.begin, window.end, static_cast<double>(window.frames.size())});
+  const auto begin = sums.column("t0"), end = sums.column("t1"), frames = sums.column("frames"),
+             bottom = sums.column("y0"), top = sums.column("y1");
+  const double thickness = loop.layers().thickness();
+  for (const auto& row : sums.rows) {
+    if (row[begin] < filter.begin || row[end] > filter.end) continue;
+    of_table.insert({row[begin], row[end], row[frames]});
+    if (std::abs(row[top] - row[bottom] - thickness) > 1e-6 * thickness) return false;
+  }
+  return own == of_table;
+}
+
+/// Tables by layer and numbers of segregation. Both are left out if B, from the table `given`, is over other
+/// windows or layers, so that all of a page is from one set of data.
+Json averages_of(FrameLoop& loop, const Table* given, const ExploreSettings& s)
+{
+  if (given == nullptr || is_over_windows_of(loop, *given, s.partition.filters))
+    return {{"layers", layer_tables(loop)},
+            {"segregation", segregation_data(loop, s.partition.filters.heights)}};
+  const auto why = fmt::format(
+      "Profiles, tables by layer and segregation are left out: B is of the windows and layers of {}, "
+      "which are not those of {} with these options",
+      printable(given->name), printable(loop.run().path()));
+  return {{"layers", {{"tables", Json::array()}, {"missing", {why}}}}, {"segregation", nullptr}};
 }
 
 /// Tables of sums of all runs, in order.
@@ -195,8 +227,7 @@ RunOfPage run_of_page(const ToolInfo& info, const po::variables_map& values,
   tell("intervals");
   run.content.update(fitted(run.sums, s.partition, s.base, run.arrays));
   tell("tables by layer");
-  run.content["layers"] = layer_tables(loop);
-  run.content["segregation"] = segregation_data(loop, s.partition.filters.heights);
+  run.content.update(averages_of(loop, table, s));
   tell("checks");
   run.content["checks"] = check_run(path);
   return run;

@@ -22,26 +22,22 @@ constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 /// counts as perpendicular to the plane.
 constexpr double along_the_plane = 1e-3;
 
-/// Radius of the disc that the plane cuts out of a grain, m; NaN if the plane misses the grain.
-template <int D>
-double radius_in_plane(double radius, const Vector<D>& position, double plane)
-{
-  if constexpr (D == 2) return radius;
-  const double away = position[D - 1] - plane, square = radius * radius - away * away;
-  return square > 0 ? std::sqrt(square) : nothing;
-}
+/// The slice of spheres that is shown: its middle and thickness along z, m.
+struct Slice {
+  double middle, thickness;
+};
 
 template <int D>
-void show_grains(const Grains& grains, const Frame<D>& frame, double plane, ShownFrame& shown)
+void show_grains(const Grains& grains, const Frame<D>& frame, const Slice& slice, ShownFrame& shown)
 {
-  for (auto* list : {&shown.x, &shown.y, &shown.radius}) list->assign(grains.size(), nothing);
+  for (auto* list : {&shown.x, &shown.y, &shown.z}) list->assign(grains.size(), nothing);
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_present(frame, g)) continue;
-    const double radius = radius_in_plane<D>(grains.radius[g], frame.position[g], plane);
-    if (std::isnan(radius)) continue;
+    const double z = D == 2 ? 0 : frame.position[g][D - 1] - slice.middle;
+    if (std::abs(z) > slice.thickness / 2) continue;
     shown.x[g] = static_cast<float>(frame.position[g].x());
     shown.y[g] = static_cast<float>(frame.position[g].y());
-    shown.radius[g] = static_cast<float>(radius);
+    shown.z[g] = static_cast<float>(z);
   }
 }
 
@@ -147,7 +143,7 @@ std::vector<std::uint32_t> rows_shown(const std::vector<ShownFrame>& frames, std
 void renumber(ShownFrame& frame, const std::vector<std::uint32_t>& rows,
               const std::vector<std::int32_t>& number)
 {
-  for (auto* list : {&frame.x, &frame.y, &frame.radius}) {
+  for (auto* list : {&frame.x, &frame.y, &frame.z}) {
     for (std::size_t g = 0; g < rows.size(); ++g) (*list)[g] = (*list)[rows[g]];
     list->resize(rows.size());
   }
@@ -173,9 +169,9 @@ ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
                   const std::vector<std::size_t>& frames)
 {
   ShownRun all;
-  const double plane = run.box().length_z / 2;
+  const Slice slice{run.box().length_z / 2, run.large_diameter()};
   const auto gravity = run.gravity<D>();
-  WallsInPlane<D> walls(plane);
+  WallsInPlane<D> walls(slice.middle);
   Frame<D> frame;
   for (const auto index : frames) {
     run.read(index, frame, {.velocity = false, .contacts = true});
@@ -187,7 +183,7 @@ ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
     if (shown.walls.size() > most_walls)
       throw FormatError(fmt::format("{}: frame {} (t = {:g} s): there are more than {} walls",
                                     printable(run.path()), index, frame.time, most_walls));
-    show_grains(grains, frame, plane, shown);
+    show_grains(grains, frame, slice, shown);
     show_contacts(frame, walls, shown);
     all.contact_point_from_size =
         std::max(all.contact_point_from_size, contact_point_from_size(grains, frame.contacts));

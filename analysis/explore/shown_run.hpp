@@ -8,8 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-/// Frames that the player of the page shows: discs in a plane and the contacts between them. In three
-/// dimensions the discs are spheres cut by the plane z = length_z/2, the middle of the cell.
+/// Frames that the player of the page shows: grains and the contacts between them. Of spheres it shows
+/// those with their centres in a slice about the plane z = length_z/2, the middle of the cell. The slice
+/// is as thick as the largest species' diameter, as in pictures of grseg-render.
 namespace grseg {
 
 /// A straight wall: the points c with n c = offset; the unit normal n points into the bed.
@@ -19,9 +20,10 @@ struct ShownWall {
 
 struct ShownFrame {
   std::int64_t step = 0;
-  double time = 0;                  // time of the frame, s
-  Vec2 gravity{0, 0};               // gravity at `time`, m/s^2
-  std::vector<float> x, y, radius;  // m, by grain; all NaN if the grain is absent or not cut
+  double time = 0;          // time of the frame, s
+  Vec2 gravity{0, 0};       // gravity at `time`, m/s^2
+  std::vector<float> x, y;  // m, by grain; NaN if the grain is absent or not in the slice
+  std::vector<float> z;     // m, by grain, from the middle of the slice; 0 for discs, else like x
   /// Grains i and j of contacts with a force, in order of i, then j; j < 0 is wall -j-1 of `walls`.
   std::vector<std::int32_t> i, j;
   /// Components of the force on i in the plane, N: along the branch (the vector from j to i), and across
@@ -32,7 +34,7 @@ struct ShownFrame {
 };
 
 struct ShownRun {
-  /// Grains that at least one frame shows: row in the run, radius of the whole grain (m), and species
+  /// Grains that at least one frame shows: row in the run, radius (m), and species
   /// (`boundary` if the grain is fixed). i and j of contacts are indices into these lists.
   std::vector<std::uint32_t> row;
   std::vector<float> radius;

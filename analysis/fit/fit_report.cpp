@@ -58,26 +58,6 @@ std::string share_words(const FitReport& report, std::size_t flow)
   return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
 }
 
-/// Populations of the intervals in the report, each with its estimand_words.
-std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
-{
-  std::set<Population> used;
-  for (const auto& fit : report.rules) {
-    used.insert(fit.over);
-    for (const auto& [word, population, meaning] : populations)
-      if (std::isfinite(fit.at(population).low)) used.insert(population);
-  }
-  if (report.scan) used = {report.scan->fits.front().over};
-  const auto flows = static_cast<std::size_t>(
-      std::ranges::count_if(report.shares, [](double share) { return share > 0; }));
-  return listed(used, [&](Population over) {
-    return std::pair(over, over == Population::windows && report.changes
-                               ? "B of these runs over these times, in which it changes; from the "
-                                 "scatter of windows inside runs"
-                               : estimand_words(over, flows));
-  });
-}
-
 /// Header line of flow m: "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv".
 std::string flow_line(const FitReport& report, std::size_t m)
 {
@@ -234,6 +214,25 @@ std::vector<NumberRow> number_rows(const FitReport& report)
 std::string rule_name(const FitReport& report, const RuleFit& fit)
 {
   return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
+}
+
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
+{
+  std::set<Population> used;
+  for (const auto& fit : report.rules) {
+    used.insert(fit.over);
+    for (const auto& [word, population, meaning] : populations)
+      if (std::isfinite(fit.at(population).low)) used.insert(population);
+  }
+  if (report.scan) used = {report.scan->fits.front().over};
+  const auto flows = static_cast<std::size_t>(
+      std::ranges::count_if(report.shares, [](double share) { return share > 0; }));
+  return listed(used, [&](Population over) {
+    return std::pair(over, over == Population::windows && report.changes
+                               ? "B of these runs over these times, in which it changes; from the "
+                                 "scatter of windows inside runs"
+                               : estimand_words(over, flows));
+  });
 }
 
 std::vector<std::string> doubts(const FitReport& report)

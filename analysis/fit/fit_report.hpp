@@ -52,6 +52,9 @@ std::string rule_name(const FitReport& report, const RuleFit& fit);
 /// fit of each rule, then in the scan.
 std::vector<std::string> doubts(const FitReport& report);
 
+/// Populations of the intervals in the report, each with the sentence on what B is over.
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report);
+
 /// A number of the report.
 struct NumberRow {
   // Words of the row. `rule` is "-" for a number common to all rules, `over` is "-" for a number

@@ -16,8 +16,7 @@ FAULTS = [
     ("neutral contacts: the small grain's share", PAGE + "partition.js", "(p - r / (1 + r)) * (1 + r)",
      "(p - 1 / (1 + r)) * (1 + r)"),
     ("share of a rule: over B at p = 1 alone", PAGE + "partition.js", "/ (at(1) - at(0));", "/ at(1);"),
-    ("band: the other end of the step", PAGE + "partition.js",
-     "(1 - t) * rows[k][side] + t * rows[k + 1][side]", "t * rows[k][side] + (1 - t) * rows[k + 1][side]"),
+    ("band: the other end of the step", PAGE + "partition.js", "(t * (c - a)) / 2", "(t * (a - c)) / 2"),
     # Frames and contacts.
     ("contacts: numbers of grains are not added up", PAGE + "frames.js", "grain += i[from + k];", "grain = i[from + k];"),
     ("contacts: without the nearest image", PAGE + "frames.js",
@@ -49,7 +48,7 @@ FAULTS = [
      "state.time > begin && state.time <= end"),
     ("profiles: small and large exchanged", PAGE + "profiles.js", ".x((k) => x(means[name][k]))",
      '.x((k) => x(means[{small: "large", large: "small"}[name] ?? name][k]))'),
-    ("profiles: B of a layer from the points of all", PAGE + "profiles.js", "sumsOf(fit, stress, own)", "sumsOf(fit, stress)"),
+    ("profiles: B of a layer from the points of all", PAGE + "profiles.js", "sumsOf(fit, stress, layer.own)", "sumsOf(fit, stress)"),
     ("marks: codes at the share p of their rule, with B of the rule that is chosen", PAGE + "share.js",
      "B: fitOf(fit, own).B}", "B: fitOf(fit, state.rule).B}"),
     ("command: the rule that it names is not the one shown", PAGE + "share.js",

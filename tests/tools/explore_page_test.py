@@ -167,20 +167,90 @@ def check_band(page):
 
 
 def check_interval_between(page):
-    """Between the shares of the band its ends are interpolated linearly; a rule that grseg-fit was not asked for has the interval at its share."""
-    scan = page.run("return grseg.content.runs[0].fit.scan")
-    def band(p):
-        return [np.interp(p, scan["p"], [row[side] for row in scan["B"]]) for side in (1, 2)]
+    """At any share, also between those of the band, the page shows the interval that grseg-fit prints; a rule that grseg-fit was not asked for has the interval at its share."""
+    shares = (0.003, 0.31, 0.6075, 0.641234, 0.666667, 0.9, 0.9999)
+    expected = fitted("sums.tsv", "--partition", ",".join(f"uniform:{p}" for p in shares))
+    for p in shares:
+        row = expected[f"uniform:{p}"]["B"]
+        low, high = page.run("return grseg.interval(0, arguments[0]).interval", f"uniform:{p}")
+        for own, end in ((low, "low"), (high, "high")):
+            assert abs(own - row[end]) < 2e-3 * (row["high"] - row["low"]), (p, own, row)
     def shown(rule):
         page.run("const [kind, value] = arguments[0].split(':'); grseg.set({rule: {kind, value: Number(value)}}); grseg.flush()", rule)
         text = re.match(r"\[(\S+), (\S+)\]", page.text("b-interval").replace("−", "-"))
         return [float(text[1]), float(text[2])]
-    for a, b in zip(shown("uniform:0.6075"), band(0.6075)):
-        close(a, b, "the band between two shares", 6e-4)
+    close(shown("uniform:0.9")[0], expected["uniform:0.9"]["B"]["low"], "the interval as text", 6e-4)
     power = page.run("return grseg.fit(0, 'power:3.3')")
     assert abs(power["share"] - 2**3.3 / (1 + 2**3.3)) > 1e-4, "the sample has grains of one size each; take another run"
-    for a, b in zip(shown("power:3.3"), band(power["share"])):
+    for a, b in zip(shown("power:3.3"), page.run("return grseg.interval(0, `uniform:${arguments[0]}`).interval", power["share"])):
         close(a, b, "the interval of a rule that was not asked for", 6e-4)
+
+
+def check_readout(page):
+    """Beside B stand what its interval is over, its windows and times, and the doubts of grseg-fit, those of its rule alone."""
+    page.keys("3")
+    told = tool("fit", "sums.tsv", "--partition", "half", "--quiet")
+    words = re.search(r"^# estimand: windows: (.*)$", told, re.MULTILINE)[1]
+    windows = re.search(r"^# windows: (.*)$", told, re.MULTILINE)[1]
+    assert words in page.text("b-over") and f"From {windows} windows of 1.25 s, t = 0 to " in page.text("b-over"), page.text("b-over")
+    doubts = re.findall(r"^# doubt: (?:half: )?(.*)$", told, re.MULTILINE)
+    shown = page.run("return Array.from(document.querySelectorAll('#b-doubts li'), (e) => e.textContent)")
+    assert [text[:20] for text in shown] == [text[:20] for text in doubts], (shown, doubts)
+    for texts in ([], ["flowing", "steady since t = 10 s"]):
+        page.run("grseg.page.fit.verdict = arguments[0]; grseg.set({rule: {kind: 'size', value: NaN}}); grseg.flush()", texts)
+        assert page.run("return Array.from(document.querySelectorAll('#b-verdict li'), (e) => e.textContent)") == [f"{text}." for text in texts]
+
+
+def check_contrast(page):
+    """Text has a contrast of 4.5 or more to its background (WCAG 2.1, 1.4.3), in both tabs, light and dark."""
+    for is_dark in (False, True):
+        page.dark(is_dark)
+        for tab in ("explore", "report"):
+            page.run(f"document.getElementById('tab-{tab}').click()")
+            page.settle()
+            low = page.run("""
+              const channels = (text) => text.match(/[\\d.]+/g).map(Number);
+              const linear = (c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+              const luminance = (text) => channels(text).slice(0, 3).reduce((sum, c, k) => sum + linear(c) * [0.2126, 0.7152, 0.0722][k], 0);
+              const behind = (e) => {
+                const own = getComputedStyle(e).backgroundColor;
+                return (channels(own)[3] ?? 1) > 0 ? own : behind(e.parentElement);
+              };
+              const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+              const low = [];
+              let n = 0;
+              while (texts.nextNode()) {
+                const e = texts.currentNode.parentElement;
+                if (!texts.currentNode.data.trim() || !e.getClientRects().length) continue;
+                const style = getComputedStyle(e);
+                const [a, b] = [luminance(e instanceof SVGElement ? style.fill : style.color), luminance(behind(e))];
+                const contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+                ++n;
+                if (contrast < 4.5) low.push([texts.currentNode.data, contrast]);
+              }
+              return n > 50 ? low : [["texts", n]]""")
+            assert low == [], (is_dark, tab, low)
+    page.dark(False)
+    page.run("document.getElementById('tab-explore').click()")
+
+
+def check_names(page):
+    """Names above the plot of B over p overlap neither each other nor the lines of other names."""
+    for size in (DESK, PHONE):
+        page.resize(*size)
+        page.settle()
+        boxes, lines = page.run("""const of = (what) => Array.from(document.querySelectorAll(`#share-plot .codes ${what}, #share-plot .p-zero ${what}`),
+              (e) => { const {left, right, top, bottom} = e.getBoundingClientRect(); return [left, right, top, bottom]; });
+            return [of("text"), of("line")]""")
+        assert len(boxes) == 4, boxes
+        for k, (left, right, top, bottom) in enumerate(boxes):
+            assert right <= size[0]
+            for other in boxes[:k]:
+                assert right <= other[0] or left >= other[1] or bottom - 4 <= other[2] or top + 4 >= other[3], (size, boxes)
+            for x, _, y0, y1 in lines:
+                assert not (left < x < right and y0 < bottom - 4 and y1 > top + 4), (size, boxes[k], (x, y0, y1))
+    page.resize(*DESK)
+    page.settle()
 
 
 def check_neutral(page):
@@ -304,9 +374,18 @@ def check_plots(page):
         phi, frames = own["phi_large"], own["frames"]
         excess = (own["size_large"] - own["size_within"]) / (own["size_small"] + own["size_large"]) - phi
         of_layer = (frames * excess).sum() / (frames * phi * (1 - phi)).sum()
-        shown = dots[abs(dots[:, 1] - bottom / d - 2).argmin(), 0]
         ends = page.run("return grseg.page.profiles.strength.scales.x.domain()")
-        assert abs(shown - min(max(of_layer, ends[0]), ends[1])) < 0.01, ("B of the layer at", bottom / d, shown, of_layer)
+        near = dots[abs(dots[:, 1] - bottom / d - 2) < 0.1, 0]
+        assert len(near) == (ends[0] <= of_layer <= ends[1]), "a layer beyond the axis has no point"
+        assert (abs(near - of_layer) < 0.01).all(), ("B of the layer at", bottom / d, near, of_layer)
+    bars = page.run("""const {x, y} = grseg.page.profiles.strength.scales;
+      return Array.from(document.querySelectorAll("#layers-plot .bar-of-error"), (e) => ["x1", "x2", "y1"].map((name) => Number(e.getAttribute(name))))
+        .map(([a, b, c]) => [x.invert(a), x.invert(b), y.invert(c)])""")
+    assert len(bars) == len(dots)
+    low, high, at = bars[len(bars) // 2]
+    tool("stress", RUN, "--quiet", "-o", "of-layer.tsv", "--overwrite")
+    row = fitted("of-layer.tsv", "--heights", f"{at - 2:.0f}dS:{at + 2:.0f}dS", "--partition", "size")["size"]["B"]
+    assert abs(low - row["low"]) < 0.01 and abs(high - row["high"]) < 0.01, ("interval of the layer", low, high, row)
     player = page.run("const [player] = grseg.page.players; return [player.py(0), player.py(0.1)]")
     assert player[1] < player[0], "up is up"
 
@@ -695,6 +774,7 @@ def check_edges():
         check_commands(page, ["size", "power:2"])
         times = page.run("return grseg.content.runs[0].window_times")
         assert times[0] == [0, 2.5] and len(times) == 8, times
+        assert page.run("return grseg.content.runs[0].layers.tables.length") == 0 and "are left out: B is of the windows" in page.text("report")
         begins = page.run("return Array.from(grseg.content.runs[0].arrays.begin)")
         page.run("grseg.set({time: 6}); grseg.flush()")
         assert page.run("return grseg.page.scatter.windowNow()") == 5 and 5 in begins
@@ -719,7 +799,7 @@ def check_spheres():
                     grseg.set({player: 0, grain: i[j.findIndex((other, k) => other >= 0 && player.frames.arrays.species[i[k]] !== 255)]});
                     grseg.flush()""")
         text = page.text("grain")
-        assert "contacts with grains in the cut" in text and "in the plane of the cut" in text, text
+        assert "of the slice" in text and "in the plane of the page" in text, text
         assert "Σ" not in text and "N m" not in text, "no sum of a part of the contacts"
         assert page.run("return document.querySelectorAll('#grain table').length") == 1
         page.shoot("explore-spheres")
@@ -753,9 +833,10 @@ def check_walls_and_one_species():
         page.run("document.getElementById('tab-report').click()")
         page.settle()
         assert "B is not shown" in page.text("report")
+        assert "drum-" not in page.text("report") and "column-width" in page.text("report"), "keys of this geometry only"
         # Without large grains there are no forces on them, and no axes without a plot.
-        assert "The run has no such values." in page.text("report")
-        assert page.run("return Array.from(document.querySelectorAll('#report svg')).every((plot) => plot.querySelector('.tick'))")
+        assert "Forces on large grains" not in page.text("report")
+        assert page.run("return Array.from(document.querySelectorAll('#report svg')).every((plot) => plot.querySelector('.tick') && plot.querySelector('path[d]:not([d=\"\"])'))")
 
 
 def check_two_mixtures():
@@ -886,8 +967,11 @@ def main():
     print(f"page of the sample: {len(text) / 1e6:.2f} MB")
     with Page("page.html") as page:
         check_b(page)
+        page.driver.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})  # whole page: no error message
         check_band(page)
         check_interval_between(page)
+        check_readout(page)
+        check_names(page)
         check_neutral(page)
         check_contacts(page, RUN, (0, 60))
         check_cuts(page)
@@ -897,6 +981,7 @@ def main():
         check_numbers(page)
         check_theme(page)
         check_captions(page)
+        check_contrast(page)
         check_grain(page)
         check_widths(page)
         check_report(page)

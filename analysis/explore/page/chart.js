@@ -24,13 +24,14 @@ function setLabel(text, label) {
 export const upright = (mark, x, from, to) => mark.attr("x1", x).attr("x2", x).attr("y1", from).attr("y2", to);
 
 export class Chart {
-  /** `scales`: d3 scales {x, y}; `labels`: axis labels {x, y}; `height` in pixels; `name`: text for screen readers. */
-  constructor(host, {scales, labels, height, name, ticks = {}, logarithmic = false}) {
+  /** `scales`: d3 scales {x, y}; `labels`: axis labels {x, y}; `height` in pixels, `above` of it over the usual margin; `name`: text for screen readers. */
+  constructor(host, {scales, labels, height, name, above = 0, ticks = {}, logarithmic = false}) {
     this.host = host;
     this.logarithmic = logarithmic;
     this.scales = scales;
     this.ticks = ticks;
     this.height = height;
+    this.above = above;
     this.svg = select(host).append("svg").attr("role", "img").attr("aria-label", name);
     this.grid = this.svg.append("g").attr("class", "grid");
     // Marks in `under` are cut off at the ends of the axes.
@@ -51,7 +52,7 @@ export class Chart {
   }
 
   get inner() {
-    return {left: margin.left, right: this.width - margin.right, top: margin.top, bottom: this.height - margin.bottom};
+    return {left: margin.left, right: this.width - margin.right, top: margin.top + this.above, bottom: this.height - margin.bottom};
   }
 
   /** Makes the chart as wide as the element around it, and draws axes and grid. */
@@ -77,7 +78,7 @@ export class Chart {
         return minus(this.textContent);
       });
     this.xLabel.attr("x", right).attr("y", this.height - 5);
-    this.yLabel.attr("x", 4).attr("y", 11);
+    this.yLabel.attr("x", 4).attr("y", 11 + this.above);
     const whole = (value) => !this.logarithmic || Math.log10(value) % 1 === 0;
     const lines = y.ticks(6).filter(whole).map((value) => ({value, at: y(value)}));
     this.grid

@@ -40,10 +40,15 @@ export class Frames {
   y(frame, grain) {
     return this.#decoded("y", this.arrays.y[frame * this.grains + grain]);
   }
-  /** Radius of the disc that is drawn, m: radius of the grain, or of the circle that the plane cuts out of a sphere. */
-  radius(frame, grain) {
-    const cut = this.arrays.cut_radius;
-    return cut ? this.#decoded("cut", cut[frame * this.grains + grain]) : this.arrays.radius[grain];
+  /** Numbers of the grains shown; spheres in the order of z, the nearest to the reader last. */
+  inOrder(frame) {
+    const shown = Array.from({length: this.grains}, (_, g) => g).filter((g) => this.isShown(frame, g));
+    const z = this.arrays.z?.subarray(frame * this.grains, (frame + 1) * this.grains);
+    return z ? shown.sort((a, b) => z[a] - z[b]) : shown;
+  }
+  /** Place of a sphere in the slice, from 0 (far) to 1 (near); 1 for discs. */
+  nearness(frame, grain) {
+    return this.arrays.z ? this.arrays.z[frame * this.grains + grain] / 65534 : 1;
   }
 
   /**

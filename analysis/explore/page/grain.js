@@ -7,8 +7,8 @@ import {shareOfContact} from "./player.js";
 import {set, state} from "./state.js";
 
 /**
- * Contacts of a grain in the frame that is shown. For spheres: only contacts with grains that the plane cuts,
- * with the components of forces in the plane.
+ * Contacts of a grain in the frame that is shown. For spheres: only contacts with grains of the slice, with
+ * the components of forces in the plane of the page.
  */
 export function contactsOf(player, grain) {
   const contacts = player.contacts();
@@ -78,9 +78,9 @@ export class GrainPanel {
 
   #draw(player, grain, contacts) {
     const size = 210, ratio = window.devicePixelRatio || 1;
-    const {frames, frame, colours} = player;
-    const r = frames.radius(frame, grain);
-    const around = contacts.map(({other}) => (other < 0 ? 0 : frames.radius(frame, other)));
+    const {frames, colours} = player;
+    const {radius} = frames.arrays, r = radius[grain];
+    const around = contacts.map(({other}) => (other < 0 ? 0 : radius[other]));
     const reach = r + 2 * Math.max(r, ...around);
     const scale = size / 2 / reach;
     this.canvas.width = this.canvas.height = size * ratio;
@@ -140,7 +140,7 @@ export class GrainPanel {
       "h3",
       {},
       `Grain ${row[grain]}, ${name(species[grain])}`,
-      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} ${contacts.length === 1 ? "contact" : "contacts"}${flat ? "" : " with grains in the cut"}`),
+      element("small", {}, ` radius ${fixed(radius[grain] / run.small_diameter, 2)} dS, ${contacts.length} ${contacts.length === 1 ? "contact" : "contacts"}${flat ? "" : " with grains of the slice"}`),
     );
     const rows = contacts.map((contact) => {
       const p = contact.mixed ? shareOfContact(state.rule, ...contact.radii) : NaN;
@@ -159,7 +159,7 @@ export class GrainPanel {
       return [k === all.length - 1 ? `now, ${ruleName(rule)}` : ruleName(rule), short(part, 3), percent(part / whole)];
     });
     const words = !flat
-      ? "The plane cuts only some of its contacts, so that its part of the stress is not known here."
+      ? "The slice has only some of its contacts, so that its part of the stress is not known here."
       : mixed.length
       ? `Its ${mixed.length} contact${mixed.length > 1 ? "s" : ""} with the other species ${mixed.length > 1 ? "have" : "has"} the sum Σ fy ℓy = ${short(whole, 3)} N m. The grain’s part of this sum under each rule:`
       : "It has no contact with the other species: its stress is the same under every rule.";
@@ -170,7 +170,7 @@ export class GrainPanel {
       element(
         "p",
         {class: "note"},
-        `${flat ? "" : "Forces are components in the plane of the cut. "}This page rounds forces to ±${short(frames.rounding, 2)} ⟨fn⟩ (⟨fn⟩: mean normal force). ` +
+        `${flat ? "" : "Forces are components in the plane of the page. "}This page rounds forces to ±${short(frames.rounding, 2)} ⟨fn⟩ (⟨fn⟩: mean normal force). ` +
           `The rule contact-point is shown as size; the shares of the two rules differ by at most ${short(run.player.contact_point_from_size, 2)}.`,
       ),
     );

@@ -8,7 +8,7 @@ import {byId, element, forgetColours, keys} from "./format.js";
 import {Frames} from "./frames.js";
 import {GrainPanel} from "./grain.js";
 import {listenToKeys} from "./keyboard.js";
-import {fitOf, neutralSums, parseRule, shareOf, stressOf, zeroOf} from "./partition.js";
+import {fitOf, intervalOf, neutralSums, parseRule, shareOf, stressOf, zeroOf} from "./partition.js";
 import {Player} from "./player.js";
 import {Profiles} from "./profiles.js";
 import {layoutReport, listenToPrinting, writeReport} from "./report.js";
@@ -85,7 +85,7 @@ function describeColours() {
   byId("legend").replaceChildren(
     ...keys(inOrder.map(([name, look]) => [look, name]), "key"),
     "– each line is a contact; its width shows the normal force, its colour the species to whose stress it counts.",
-    runs.some((run) => run.dimension === 3) ? " A plane in the middle of the cell cuts the spheres." : "",
+    runs.some((run) => run.dimension === 3) ? " Of spheres there is the slice in the middle of the cell that is as thick as a large one, its far grains pale; forces are components in the plane of the page." : "",
   );
 }
 
@@ -159,6 +159,7 @@ class Page {
   layout() {
     if (byId("explore").hidden) return;
     const tallest = Math.max(260, Math.min(0.66 * window.innerHeight, 620)) / (runs.length > 2 ? 1.6 : 1);
+    if (!(byId("players").clientWidth > 0)) return; // as while a browser takes a picture of the whole page
     this.players.forEach((player) => player.resize(Math.floor(player.canvas.parentElement.clientWidth), tallest));
     if (this.share) {
       this.share.layout(this.fits.filter((fit, k) => fit && k !== state.run));
@@ -258,6 +259,7 @@ async function start() {
     set,
     flush,
     page,
+    interval: (k, text) => intervalOf(page.fits[k], parseRule(text)),
     neutral: (k, p) => neutralSums(page.fits[k], p),
     fit: (k, text) => ({...fitOf(page.fits[k], parseRule(text)), share: shareOf(page.fits[k], parseRule(text))}),
   };

@@ -150,17 +150,16 @@ export function isShare(p) {
   return p >= 0 && p <= 1;
 }
 
-/** Interval of B at the share p, [low, high], interpolated between the shares at which grseg-fit computed it. */
-export function bandAt(fit, p) {
-  const {p: grid, B: rows} = fit.scan;
-  if (!(p >= grid[0] && p <= grid[grid.length - 1])) return [NaN, NaN];
-  let k = 0;
-  while (k < grid.length - 2 && grid[k + 1] < p) ++k;
-  const t = (p - grid[k]) / (grid[k + 1] - grid[k]);
-  return [1, 2].map((side) =>
-    rows[k][side] === null || rows[k + 1][side] === null
-      ? NaN
-      : (1 - t) * rows[k][side] + t * rows[k + 1][side]);
+/**
+ * Half of the interval of B at the share p, from [B, low, high] at equally spaced shares. Its square is a parabola
+ * between three of them: B is linear in p, and so is each part of its deviation.
+ */
+export function halfAt(p, {p: grid, B: rows}) {
+  const last = grid.length - 1, place = (p - grid[0]) / (grid[1] - grid[0]);
+  if (!(place >= -1e-9 && place <= last + 1e-9)) return NaN;
+  const k = Math.min(last - 1, Math.max(1, Math.round(place))), t = place - k;
+  const [a, b, c] = [k - 1, k, k + 1].map((n) => (rows[n][1] === null ? NaN : ((rows[n][2] - rows[n][1]) / 2) ** 2));
+  return Math.sqrt(Math.max(0, b + (t * (c - a)) / 2 + (t * t * (a - 2 * b + c)) / 2));
 }
 
 /** Result of grseg-fit for a rule, over all runs of the fit; undefined if the page does not contain it. */
@@ -169,10 +168,18 @@ export function fittedRule(fit, rule) {
   return fit.rules.filter((row) => row.name === name).pop();
 }
 
-/** Interval of B under a rule, {interval: [low, high], of}: from grseg-fit, with `of` "", or read from the band at the rule's share. */
+/**
+ * Interval of B under a rule, {interval: [low, high], of, doubts}: from grseg-fit, with `of` "", or as wide as the
+ * interval at the rule's share.
+ */
 export function intervalOf(fit, rule) {
   const own = fittedRule(fit, rule);
-  if (own) return {interval: own.B.slice(1).map((x) => x ?? NaN), of: ""};
-  const p = shareOf(fit, rule);
-  return {interval: bandAt(fit, p), of: rule.kind === "uniform" ? "" : `taken from uniform:${Number(p.toPrecision(3))}`};
+  if (own) return {interval: own.B.slice(1).map((x) => x ?? NaN), of: "", doubts: [...fit.doubts, own.doubt].filter(Boolean)};
+  const p = shareOf(fit, rule), {B} = fitOf(fit, rule), half = halfAt(p, fit.scan);
+  const doubt = fit.scan.doubts[Math.round(p * (fit.scan.p.length - 1))];
+  return {
+    interval: [B - half, B + half],
+    of: rule.kind === "uniform" ? "" : `taken from uniform:${Number(p.toPrecision(3))}`,
+    doubts: [...fit.doubts, doubt].filter(Boolean),
+  };
 }

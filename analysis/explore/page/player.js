@@ -76,7 +76,7 @@ export class Player {
   draw() {
     const {context: c} = this;
     this.colours = Object.fromEntries(
-      ["small", "large", "other", "base", "ink", "line"].map((name) => [name, colour(name)]),
+      ["small", "large", "other", "base", "ink", "line", "card"].map((name) => [name, colour(name)]),
     );
     this.#drawStill();
     c.clearRect(0, 0, this.width, this.height);
@@ -121,7 +121,7 @@ export class Player {
   /** Calls at(x, y, r) (pixels) for a grain and, if it crosses an end of a periodic cell, also for its image. */
   #images(grain, at) {
     const {frames, frame} = this;
-    const x = frames.x(frame, grain), r = frames.radius(frame, grain), y = this.py(frames.y(frame, grain));
+    const x = frames.x(frame, grain), r = frames.arrays.radius[grain], y = this.py(frames.y(frame, grain));
     const {periodic_x: periodic, length_x: length} = frames.player;
     at(this.px(x), y, r * this.scale);
     if (periodic && x < r) at(this.px(x + length), y, r * this.scale);
@@ -130,20 +130,27 @@ export class Player {
 
   #drawGrains(c) {
     const {frames, frame} = this;
-    const {species} = frames.arrays;
-    for (const one of new Set(species)) {
-      if (!state.showGrains && one !== frames.base) continue;
-      c.fillStyle = this.colourOf(one);
-      c.globalAlpha = one === frames.base ? 0.8 : state.showForces ? 0.24 : 0.85;
-      for (let g = 0; g < frames.grains; ++g) {
-        if (species[g] !== one || !frames.isShown(frame, g)) continue;
-        // One path per disc: browsers take longer to fill one path of thousands of discs.
-        this.#images(g, (x, y, r) => {
-          c.beginPath();
-          c.arc(x, y, Math.max(r - 0.25, 0.3), 0, 2 * Math.PI);
-          c.fill();
-        });
-      }
+    const {species, z} = frames.arrays;
+    // One path per disc: browsers take longer to fill one path of thousands of discs.
+    const disc = (x, y, r, ink, alpha) => {
+      c.fillStyle = ink;
+      c.globalAlpha = alpha;
+      c.beginPath();
+      c.arc(x, y, Math.max(r, 0.3), 0, 2 * Math.PI);
+      c.fill();
+    };
+    for (const g of frames.inOrder(frame)) {
+      if (!state.showGrains && species[g] !== frames.base) continue;
+      const ink = this.colourOf(species[g]), near = frames.nearness(frame, g);
+      const alpha = (species[g] === frames.base ? 0.8 : state.showForces ? 0.24 : 0.85) * (0.4 + 0.6 * near);
+      this.#images(g, (x, y, r) => {
+        if (z) {
+          disc(x, y, r, this.colours.card, 1); // hides what is behind
+          disc(x, y, r, ink, Math.min(1, alpha + 0.25)); // a rim
+          disc(x, y, r - 1.2, this.colours.card, 1);
+        }
+        disc(x, y, z ? r - 1.2 : r - 0.25, ink, alpha);
+      });
     }
     c.globalAlpha = 1;
   }
@@ -290,19 +297,17 @@ export class Player {
     c.fillText("g", x - 6, y + 12);
   }
 
-  /** The grain under the pointer, or -1. */
+  /** The grain under the pointer, the front one of several; the nearest one within 4 pixels if there is none; or -1. */
   grainAt(event) {
     const {frames, frame} = this;
     const bounds = this.canvas.getBoundingClientRect();
     const at = {x: event.clientX - bounds.left, y: event.clientY - bounds.top};
-    let best = -1, nearest = 4; // largest distance of the pointer from the rim of a grain, pixels
-    for (let g = 0; g < frames.grains; ++g) {
-      if (!frames.isShown(frame, g)) continue;
+    let best = -1, nearest = 4; // distance of the pointer from the rim of the grain, pixels
+    for (const g of frames.inOrder(frame))
       this.#images(g, (x, y, r) => {
-        const away = Math.hypot(at.x - x, at.y - y) - r;
-        if (away < nearest) [best, nearest] = [g, away];
+        const away = Math.max(0, Math.hypot(at.x - x, at.y - y) - r);
+        if (away <= nearest) [best, nearest] = [g, away];
       });
-    }
     return best;
   }
 }

@@ -4,7 +4,7 @@
 import {Chart, upright} from "./chart.js";
 import {extent, group, line, scaleLinear} from "./d3.js";
 import {byId, keys} from "./format.js";
-import {sumsOf, stressOf} from "./partition.js";
+import {halfAt, shareOf, sumsOf, stressOf} from "./partition.js";
 import {set, state} from "./state.js";
 
 const looks = ["total", "small", "large"];
@@ -46,6 +46,7 @@ export class Profiles {
     byId("profile-note").replaceChildren(...keys(looks.map((look, k) => [look, names[k]])), "– means over all windows");
     this.nothing = this.strength.under.append("line").attr("class", "zero-line");
     this.all = this.strength.under.append("line").attr("class", "all-line");
+    this.bars = this.strength.under.append("g");
     this.dots = this.strength.marks.append("g");
     for (const chart of [this.pressure, this.strength]) follow(chart, () => this.layers ?? []);
   }
@@ -70,21 +71,24 @@ export class Profiles {
     this.fitted = Array.from(pointsAt, ([y, own]) => {
       const weight = own.reduce((sum, k) => sum + frames[k] * phi_large[k] * (1 - phi_large[k]), 0);
       const k = this.layers.findIndex(([, , [low]]) => low === y);
-      return {y: (this.layers[k][0] + this.layers[k][1]) / 2, own, weight};
+      return {y: (this.layers[k][0] + this.layers[k][1]) / 2, own, weight, rows: fit.by_layer.layers.find(({bottom: low}) => low === y).B};
     });
     const heaviest = Math.max(...this.fitted.map((layer) => layer.weight));
     for (const layer of this.fitted) layer.light = layer.weight < heaviest / 10;
-    const ends = [0.35, 0.85].flatMap((p) => this.#strengths(stressOf(fit, {kind: "uniform", value: p})));
-    const finite = ends.filter((B) => Number.isFinite(B));
-    this.strength.scales.x.domain([Math.max(-3, Math.min(...finite, 0)), Math.min(3, Math.max(...finite, 0))]).nice();
     this.strength.scales.y.domain([0, top]);
     this.strength.layout();
-    upright(this.nothing, this.strength.scales.x(0), this.strength.inner.top, this.strength.inner.bottom);
   }
 
+  /** Fitted layers with B and its interval under the selected rule. */
   #strengths(stress) {
     const fit = this.fitOfRun();
-    return this.fitted.map(({own}) => sumsOf(fit, stress, own).B);
+    const p = shareOf(fit, state.rule);
+    return this.fitted
+      .map((layer) => {
+        const {B} = sumsOf(fit, stress, layer.own), half = halfAt(p, {p: fit.by_layer.p, B: layer.rows}) || 0;
+        return {...layer, B, low: B - half, high: B + half};
+      })
+      .filter(({B}) => state.rule.kind !== "drop" && Number.isFinite(B));
   }
 
   update(stress, found) {
@@ -97,19 +101,39 @@ export class Profiles {
         .y((k) => y((this.layers[k][0] + this.layers[k][1]) / 2));
       this.lines[row].attr("d", Array.from(this.profiles.values(), path).join(""));
     });
-    const values = state.rule.kind === "drop" ? this.fitted.map(() => NaN) : this.#strengths(stress);
-    const {x: xb, y: yb} = this.strength.scales;
-    const seen = this.fitted.map((layer, k) => ({...layer, B: values[k]})).filter(({B}) => Number.isFinite(B));
+    this.#drawStrengths(this.#strengths(stress), found.B);
+  }
+
+  /** The axis includes 0, B of all layers, and the intervals of the layers with much weight. */
+  #drawStrengths(layers, B) {
+    const {x, y} = this.strength.scales;
     const {left, right, top, bottom} = this.strength.inner;
-    const B = found.B;
-    upright(this.all, xb(B || 0), top, bottom).attr("visibility", B >= xb.domain()[0] && B <= xb.domain()[1] ? "visible" : "hidden");
+    const ends = [0, B || 0, ...layers.filter(({light}) => !light).flatMap(({low, high}) => [low, high])];
+    const width = Math.max(...ends) - Math.min(...ends);
+    x.domain([Math.min(...ends) - 0.05 * width, Math.max(...ends) + 0.05 * width]).nice();
+    this.strength.axes();
+    upright(this.nothing, x(0), top, bottom);
+    upright(this.all, x(B || 0), top, bottom).attr("visibility", Number.isFinite(B) ? "visible" : "hidden");
+    const inside = layers.filter((layer) => x(layer.B) >= left && x(layer.B) <= right);
+    const outside = layers.length - inside.length;
+    byId("layers-note").textContent = outside ? `Beyond the axis: ${outside} ${outside > 1 ? "layers" : "layer"}.` : "";
+    const look = (layer) => (layer.B > 0 ? "large" : "small");
+    this.bars
+      .selectAll("line")
+      .data(inside)
+      .join("line")
+      .attr("class", (layer) => `bar-of-error ${look(layer)}`)
+      .attr("x1", ({low}) => x(low))
+      .attr("x2", ({high}) => x(high))
+      .attr("y1", ({y: at}) => y(at))
+      .attr("y2", ({y: at}) => y(at));
     this.dots
       .selectAll("circle")
-      .data(seen)
+      .data(inside)
       .join("circle")
-      .attr("class", ({B, light}) => `dot ${B > 0 ? "large" : "small"}${light ? " light" : ""}`)
-      .attr("r", 5)
-      .attr("cx", ({B}) => Math.min(right, Math.max(left, xb(B))))
-      .attr("cy", ({y: at}) => yb(at));
+      .attr("class", (layer) => `dot ${look(layer)}${layer.light ? " light" : ""}`)
+      .attr("r", 4)
+      .attr("cx", (layer) => x(layer.B))
+      .attr("cy", ({y: at}) => y(at));
   }
 }

@@ -3,15 +3,14 @@
 
 import {Chart, upright} from "./chart.js";
 import {area, extent, line, scaleLinear} from "./d3.js";
-import {byId, element, fixed, interval, keys, rounded, short, table, withUnit} from "./format.js";
+import {byId, element, fixed, interval, keys, listOf, rounded, short, table, withUnit} from "./format.js";
 import {isShare, stressOf, zeroOf} from "./partition.js";
 
 const charts = [];
 
 /**
  * A figure with a chart, which layoutReport() draws as soon as its width is known. `domains(x, y)` sets the domains of the
- * scales, or returns false if there is nothing to draw, which is then said. `paths(x, y, chart)` returns pairs [CSS class, outline]. `lines`:
- * pairs [CSS class, name] for the key in the caption.
+ * scales. `paths(x, y, chart)` returns pairs [CSS class, outline]. `lines`: pairs [CSS class, name] for the key in the caption.
  */
 function figure(caption, labels, domains, paths, lines = []) {
   const host = element("div", {class: "plot"});
@@ -20,7 +19,7 @@ function figure(caption, labels, domains, paths, lines = []) {
   const {x, y} = chart.scales;
   charts.push(() => {
     if (!(host.clientWidth > 0)) return;
-    if (domains(x, y) === false) return host.replaceChildren(element("p", {class: "note"}, "The run has no such values."));
+    domains(x, y);
     chart.layout();
     chart.under.selectAll("*").remove();
     for (const [look, outline] of paths(x, y, chart)) chart.under.append("path").attr("class", look).attr("d", outline);
@@ -31,11 +30,12 @@ function figure(caption, labels, domains, paths, lines = []) {
 /** Figure of B over the share p, with the band of its intervals. */
 function shareFigure(fit) {
   const [p] = zeroOf(fit);
-  const caption = `B over the share p of a mixed contact that goes to its large grain; 95 % band${isShare(p) ? "; p*" : ""}`;
   const grid = fit.scan.p.map((share, k) => [share, ...fit.scan.B[k]]).filter(([, B]) => B !== null);
+  const band = grid.filter(([, , low]) => low !== null);
+  const caption = `B over the share p of a mixed contact that goes to its large grain${band.length ? "; 95 % band" : ""}${isShare(p) ? "; p*" : ""}`;
   const domains = (_, y) => y.domain([Math.min(0, ...grid.map(([, B]) => B)), Math.max(0, ...grid.map(([, B]) => B))]).nice();
   return figure(caption, {x: "share p", y: "B"}, domains, function* (x, y, chart) {
-    yield ["band", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(grid.filter((row) => row[2] !== null))];
+    yield ["band", area().x((d) => x(d[0])).y0((d) => y(d[2])).y1((d) => y(d[3]))(band)];
     yield ["curve", line().x((d) => x(d[0])).y((d) => y(d[1]))(grid)];
     if (!isShare(p)) return;
     const {top, bottom} = chart.inner;
@@ -51,29 +51,34 @@ function excessFigure(fit) {
   const {small, large} = stressOf(fit, {kind: "size", value: NaN});
   const points = Array.from(fit.arrays.phi_large, (phi, k) => [phi, large[k] / (small[k] + large[k])]).filter(([, psi]) => Number.isFinite(psi));
   const [least, most] = extent(points, ([, psi]) => psi);
-  const domains = (_, y) => points.length > 0 && y.domain([Math.min(0, least), Math.max(1, most)]);
+  if (!points.length) return null;
+  const domains = (_, y) => y.domain([Math.min(0, least), Math.max(1, most)]);
   return figure(caption, {x: "φ_L", y: "ψ_L"}, domains, (x, y) => [
     ["neutral", line()([[x(0), y(0)], [x(1), y(1)]])],
-    ["points", points.map(([phi, psi]) => `M${x(phi).toFixed(1)},${y(psi).toFixed(1)}h0`).join("")],
+    [points.length < 200 ? "points few" : "points", points.map(([phi, psi]) => `M${x(phi).toFixed(1)},${y(psi).toFixed(1)}h0`).join("")],
   ], [["neutral", "equal shares"]]);
 }
 
-/** Figure of columns of a table by layer, over height. `lines`: [[column, CSS class, name in the caption], ...] */
+/**
+ * Figure of columns of a table by layer, over height. `lines`: [[column, CSS class, name in the caption], ...]; those with
+ * fewer than two numbers are left out. Null if nothing is left.
+ */
 function profileFigure(layers, name, lines, caption, label, smallDiameter) {
   const {columns, rows} = layers.tables.find((one) => one.name === name) ?? {columns: [], rows: []};
-  const places = lines.map(([column, look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), look]);
-  if (places.some(([at]) => at < 0)) return null;
+  const places = lines
+    .map(([column, ...look]) => [columns.findIndex((c) => c.replace(/\[.*/, "") === column), ...look])
+    .filter(([at]) => rows.filter((row) => (row[at] ?? null) !== null).length > 1);
+  if (!places.length) return null;
   const middle = (row) => (row[0] + row[1]) / 2 / smallDiameter;
   const values = rows.flatMap((row) => places.map(([at]) => row[at])).filter((v) => v !== null);
   const [least, most] = extent(values);
   const domains = (x, y) => {
     x.domain([Math.min(0, least), Math.max(0, most)]).nice();
     y.domain([0, Math.max(...rows.map((row) => row[1])) / smallDiameter]);
-    return values.length > 0;
   };
   const paths = (x, y) => places.map(([at, look]) =>
     [`profile ${look}`, line().defined((row) => row[at] !== null).x((row) => x(row[at])).y((row) => y(middle(row)))(rows)]);
-  return figure(caption, {x: label, y: "y/d_S"}, domains, paths, lines.filter(([, , words]) => words).map(([, look, words]) => [look, words]));
+  return figure(caption, {x: label, y: "y/d_S"}, domains, paths, places.filter(([, , words]) => words).map(([, look, words]) => [look, words]));
 }
 
 function profileFigures(run) {
@@ -88,7 +93,7 @@ function profileFigures(run) {
     own("micro", [["z_S", "small", "small grains"], ["z_L", "large", "large grains"]], "Contacts of a grain", "contacts z"),
     own("micro", [["mixed_share", "total", "all contacts of the run"], ["neutral_share", "neutral", "contacts that ignore size"]], "Share of mixed contacts", "share of contacts"),
     run.species.length !== 2 ? null : own("balance", [["push", "large", "contact push, cut at the contact point"], ["push_kinetic", "large dashed", "kinetic push"], ["drag", "total", "drag"]], "Forces on large grains along y, upward positive", `force (${force})`),
-  ].filter(Boolean);
+  ];
 }
 
 /** A button that saves a table as tab-separated text. */
@@ -145,22 +150,31 @@ function fitSection(fit, heading) {
     return cells;
   });
   const zero = zeroOf(fit);
+  const doubts = new Map(); // sentence -> names of its rules
+  for (const {name, doubt} of fit.rules) if (doubt) doubts.set(doubt, (doubts.get(doubt) ?? new Set()).add(name));
+  const all = new Set(fit.rules.map(({name}) => name)).size;
   const undecided = [...new Set(fit.rules.filter(({B: [, low, high]}) => low !== null && low <= 0 && high >= 0).map(({name}) => name))];
-  const doubted = [...new Set(fit.rules.map((row) => row.doubt).filter(Boolean))];
-  const doubts = doubted.map((doubt) => {
-    const names = [...new Set(fit.rules.filter((row) => row.doubt === doubt).map((row) => row.name))];
-    return rounded(`${names.join(", ")}: ${doubt}.`);
-  });
   return element(
     "section",
     {},
     element("h3", {}, heading),
+    listOf(element("ul", {class: "verdict"}), fit.verdict),
     element("div", {class: "scroll"}, table(columns, rows)),
-    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: at this share B is 0. ` : "", `${several ? "The intervals of all flows are" : "95 % intervals are"} over ${fit.over}: ${fit.over_words}.`),
+    element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: at this share B is 0. ` : "", fit.rules.some(({B: [, low]}) => low !== null) ? `${several ? "The intervals of all flows are" : "95 % intervals are"} over ${fit.over}: ${fit.over_words}.` : ""),
     undecided.length ? element("p", {}, `The sign of B is undecided under ${undecided.join(", ")}: the interval includes 0. A longer run, or further runs with other seeds, make the interval narrower.`) : null,
-    doubts.length ? element("ul", {class: "doubt"}, ...doubts.map((doubt) => element("li", {}, doubt))) : null,
+    listOf(element("ul", {class: "doubt"}), [...fit.doubts, ...Array.from(doubts, ([doubt, names]) => `${names.size < all ? `${[...names].join(", ")}: ` : ""}${doubt}`)]),
     element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
   );
+}
+
+/** Remarks "NAME: REASON", with the names of one reason together. */
+function gathered(remarks) {
+  const names = new Map();
+  for (const text of remarks) {
+    const [, name, reason] = text.match(/^(\S+): (.*)$/) ?? [null, null, text];
+    names.set(reason, [...(names.get(reason) ?? []), ...(name ? [withUnit(name).replace(/ \[.*/, "")] : [])]);
+  }
+  return Array.from(names, ([reason, own]) => rounded(`${own.length ? `${own.join(", ")}: ` : ""}${reason}.`));
 }
 
 /** Section with the heights of the centres of mass of both species over time, and the numbers of grseg-segregation. */
@@ -173,14 +187,13 @@ function segregationSection(run) {
   const middle = (row) => (row[0] + row[1]) / 2;
   const values = rows.flatMap((row) => [row[large], row[small]]).filter((v) => v !== null);
   const domains = (x, y) => {
-    if (!values.length) return false;
     x.domain([rows[0][0], rows[rows.length - 1][1]]);
-    return y.domain(extent(values).map((height) => height / d)).nice();
+    y.domain(extent(values).map((height) => height / d)).nice();
   };
   const paths = (x, y) => [[small, "small"], [large, "large"]].map(([at, look]) =>
     [`profile ${look}`, line().defined((row) => row[at] !== null).x((row) => x(middle(row))).y((row) => y(row[at] / d))(rows)]);
   const lines = [["small", "small grains"], ["large", "large grains"]];
-  const drawn = figure("Heights of the centres of mass, mean of each window", {x: "t (s)", y: "y/d_S"}, domains, paths, lines);
+  const drawn = values.length < 3 ? null : figure("Heights of the centres of mass, mean of each window", {x: "t (s)", y: "y/d_S"}, domains, paths, lines);
   const cells = numbers.filter(([, value]) => value !== null).map(([name, value, low, high]) => [
     withUnit(name),
     short(value),
@@ -191,7 +204,7 @@ function segregationSection(run) {
     {},
     element("h3", {}, "Segregation"),
     element("div", {class: "figures"}, drawn, element("div", {class: "scroll"}, table([["quantity"], ["value", "number"], ["95 %", "number"]], cells))),
-    ...remarks.map((text) => element("p", {class: "note"}, rounded(`${text}.`))),
+    ...gathered(remarks).map((text) => element("p", {class: "note"}, text)),
     element("p", {class: "note screen"}, saveButton("segregation", segregation), " the table of grseg-segregation for the whole bed, one row per window"),
   );
 }
@@ -245,7 +258,7 @@ const dimensions = {
   m: /diameter$|overlap$|mean_gap|height$|_margin$|_origin$|centre$/,
   s: /^(step|frame_interval|advised_step|restart_time)$/,
   "m/s²": /^gravity$/,
-  "m/s": /speed$/,
+  "m/s": /(speed|velocity)$/,
   "°": /^slope$/,
   "°/s": /^slope_rate$/,
   dS: /^perturb$/,
@@ -276,13 +289,23 @@ function accuracySection(run) {
   );
 }
 
+/** Keys of scenes that concern one geometry; each is in the text of every scene (sim/scene/keys/keys.cpp). */
+const ofGeometry = {bed: /^shake-/, drum: /^(drum-|fill$)/, shear: /^plate-/, column: /^column-/, hopper: /^outlet/};
+
+/** The text of a scene without the keys of other geometries than its own. */
+function ownKeys(scene) {
+  const own = /^geometry = (.*)$/m.exec(scene)?.[1];
+  const isOther = (key) => Object.entries(ofGeometry).some(([geometry, keys]) => geometry !== own && keys.test(key));
+  return own in ofGeometry ? scene.split("\n").filter((line) => !isOther(line.split(" = ")[0])).join("\n") : scene;
+}
+
 function settingsSection(run) {
   return element(
     "section",
     {},
     element("h3", {}, "Settings"),
     element("p", {class: "note"}, "SI units; angles in degrees."),
-    run.scene ? element("pre", {class: "scene"}, run.scene) : null,
+    run.scene ? element("pre", {class: "scene"}, ownKeys(run.scene)) : null,
     element("details", run.scene ? {} : {open: ""}, element("summary", {}, `All ${run.parameters.length} parameters of the file`), pairs(parameters(run, run.parameters))),
   );
 }
@@ -306,12 +329,12 @@ function runSection(run) {
     element("h2", {}, run.name),
     pairs(facts),
     run.fit ? fitSection(run.fit, "B of the contact stress") : element("p", {class: "doubt"}, `B is not shown: ${run.why_no_fit}.`),
-    element("div", {class: "figures"}, ...(run.fit ? [shareFigure(run.fit), excessFigure(run.fit)] : []), ...profileFigures(run)),
+    element("div", {class: "figures"}, ...[...(run.fit ? [shareFigure(run.fit), excessFigure(run.fit)] : []), ...profileFigures(run)].filter(Boolean)),
     checkSection(run),
     accuracySection(run),
     element("h3", {}, "By layer"),
-    element("p", {class: "note"}, `Means over ${layers.windows} window${layers.windows > 1 ? "s" : ""} from ${short(layers.begin)} to ${short(layers.end)} s, weighted by frames. ` +
-      (run.sums ? "Layers and windows here are those of the command above; B uses those of the table. " : "") + layers.missing.map((text) => `${text}. `).join("")),
+    element("p", {class: "note"}, (layers.tables.length ? `Means over ${layers.windows} window${layers.windows > 1 ? "s" : ""} from ${short(layers.begin)} to ${short(layers.end)} s, weighted by frames. ` : "") +
+      layers.missing.map((text) => `${text}. `).join("")),
     ...layers.tables.map((one) => layerTable(one, run.small_diameter)),
     segregationSection(run),
     settingsSection(run),

@@ -109,7 +109,7 @@ export class Scatter {
     this.fitted.attr("d", Number.isFinite(found.B) ? line().x((d) => x(d[0])).y((d) => y(d[1]))(inside) : null);
     byId("scatter-note").replaceChildren(
       `${this.ratio.length} points, one per layer and window: `,
-      ...keys([["total", "the window of the frame shown"]], "key"),
+      ...keys(now === null ? [] : [["total", "the window of the frame shown"]], "key"),
       ...keys([...(Number.isFinite(found.B) ? [["total", "B the same everywhere"]] : []), ["neutral", "equal shares"]]),
       outside ? `– ${outside} points without positive stresses are left out` : "",
     );

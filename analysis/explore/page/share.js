@@ -3,7 +3,7 @@
 
 import {Chart, margin, upright} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
-import {apart, byId, element, fixed, interval, keys, percent} from "./format.js";
+import {apart, byId, element, fixed, interval, keys, listOf, percent, rounded} from "./format.js";
 import {commandRule, fitOf, hasPowers, intervalOf, isShare, neutralSums} from "./partition.js";
 import {numberedRule, parseRule, ruleName, shareOf, zeroOf} from "./partition.js";
 import {Parts} from "./parts.js";
@@ -33,7 +33,8 @@ export class Share {
     this.chart = new Chart(byId("share-plot"), {
       scales: {x: scaleLinear().domain([0, 1]), y: scaleLinear()},
       labels: {x: "share p of the large grain", y: "B"},
-      height: 300,
+      height: 330,
+      above: 40, // for four lines of names
       name: "B over the share p, with the band of its intervals, p*, and the rules of published programs",
     });
     const {under, marks} = this.chart;
@@ -43,6 +44,7 @@ export class Share {
     this.curve = under.append("path").attr("class", "curve");
     this.zero = marks.append("g").attr("class", "p-zero");
     this.codes = marks.append("g").attr("class", "codes");
+    this.names = marks.append("g");
     this.stem = marks.append("line").attr("class", "stem");
     this.point = marks.append("circle").attr("class", "point").attr("r", 6.5);
     this.parts = new Parts();
@@ -133,7 +135,7 @@ export class Share {
 
   #drawZero(fit) {
     const {x} = this.chart.scales;
-    const {top, bottom, left} = this.chart.inner;
+    const {top, bottom} = this.chart.inner;
     const [p, low, high] = zeroOf(fit);
     this.zero.selectAll("*").remove();
     if (!isShare(p)) return;
@@ -145,38 +147,44 @@ export class Share {
         .attr("y", top)
         .attr("height", bottom - top);
     upright(this.zero.append("line"), x(p), top, bottom);
-    const before = x(p) > left + 90;
-    this.zero
-      .append("text")
-      .attr("x", x(p) + (before ? -6 : 6))
-      .attr("y", top + 10)
-      .attr("text-anchor", before ? "end" : "start")
-      .text(`p* = ${fixed(p)}`);
   }
 
-  /** Marks the rules of published programs on the curve, with names above it. A name that would overlap another is put higher. */
+  /** Marks the rules of published programs on the curve. Their names and p* stand above the plot. */
   #drawCodes(fit) {
     const {x, y} = this.chart.scales;
-    const {left} = this.chart.inner;
     const marks = this.known
       .filter((rule) => rule.stock && rule.word !== "drop")
       .map((rule) => {
         const own = parseRule(rule.word);
-        return {name: rule.word, use: shortUse(rule.used_by), p: shareOf(fit, own), B: fitOf(fit, own).B};
+        return {name: rule.word, p: shareOf(fit, own), B: fitOf(fit, own).B};
       })
-      .filter(({p, B}) => Number.isFinite(p) && Number.isFinite(B))
-      .sort((a, b) => b.p - a.p);
+      .filter(({p, B}) => Number.isFinite(p) && Number.isFinite(B));
     this.codes.selectAll("*").remove();
-    marks.forEach(({name, use, p, B}, k) => {
-      // The names of two rules with nearly equal shares would overlap.
-      const near = k > 0 && x(marks[k - 1].p) - x(p) < 12;
-      const to = {x: Math.max(left + 60, x(p) - 18), y: y(B) - (near ? 36 : 18)};
-      this.codes.append("line").attr("x1", x(p)).attr("y1", y(B)).attr("x2", to.x + 2).attr("y2", to.y - 3);
+    const names = [];
+    for (const {name, p, B} of marks) {
       this.codes.append("circle").attr("cx", x(p)).attr("cy", y(B)).attr("r", 3.5);
-      const text = this.codes.append("text").attr("x", to.x).attr("y", to.y).attr("text-anchor", "end");
-      text.append("tspan").attr("class", "strong").text(name);
-      if (this.chart.width > 420) text.append("tspan").text(` ${use}`);
-    });
+      names.push({text: name, at: x(p), to: y(B) - 4, look: "codes"});
+    }
+    const [zero] = zeroOf(fit);
+    if (isShare(zero)) names.push({text: `p* = ${fixed(zero)}`, at: x(zero), to: this.chart.inner.top, look: "p-zero"});
+    this.#drawNames(names);
+  }
+
+  /** Writes names above the plot, each to the right of its line down to `to`, and above all names that begin below it. */
+  #drawNames(names) {
+    const {top} = this.chart.inner;
+    this.names.selectAll("*").remove();
+    const placed = [];
+    for (const name of names.sort((a, b) => b.at - a.at)) {
+      const own = this.names.append("g").attr("class", name.look);
+      const guide = own.append("line"), text = own.append("text").text(name.text);
+      const width = text.node().getComputedTextLength() + 10;
+      const row = Math.max(0, ...placed.filter(({at}) => at < name.at + width).map((other) => other.row + 1));
+      const base = top - 8 - 15 * row;
+      text.attr("x", Math.min(name.at + 4, this.chart.width - width + 10)).attr("y", base);
+      upright(guide, name.at, base - 10, name.to);
+      placed.push({at: name.at, row});
+    }
   }
 
   /** Draws everything that depends on the rule. `found`: the result of fitOf(). */
@@ -232,10 +240,13 @@ export class Share {
     byId("b-name").textContent = `B by ${ruleName(rule)}`;
     byId("b-value").textContent = byId("dock-value").textContent = fixed(B);
     byId("dock-name").textContent = `p = ${fixed(p)}, B =`;
-    const {interval: band, of} = Number.isFinite(B) ? intervalOf(fit, rule) : {interval: [NaN, NaN], of: ""};
-    const known = interval(band);
+    const {interval: band, of, doubts} = intervalOf(fit, rule);
+    const known = Number.isFinite(B) ? interval(band) : "";
     byId("b-interval").textContent = known && `${known} (95 %${of && `, ${of}`})`;
-    byId("b-interval").title = `95 % over ${fit.over}: ${fit.over_words}`;
+    const {windows, window, times} = fit.settings;
+    byId("b-over").textContent = rounded(`${known && `95 % over ${fit.over}: ${fit.over_words}. `}From ${windows} window${windows === "1" ? "" : "s"} of ${window}, t = ${times}.`);
+    listOf(byId("b-verdict"), fit.verdict);
+    listOf(byId("b-doubts"), Number.isFinite(B) ? doubts : fit.doubts);
     const [low, high] = band;
     const sure = low > 0 || high < 0;
     byId("b-words").textContent = !Number.isFinite(B)

@@ -119,6 +119,44 @@ TEST(PartitionData, ByNeutralContactsBIsZeroBySizeAndAtTwoThirds)
   EXPECT_EQ(data["power_nodes"].size(), 0u) << "there are no sums by power:Q";
 }
 
+TEST(PartitionData, EachLayerHasTheIntervalThatItHasAlone)
+{
+  std::vector<synthetic::TableRow> all, alone;
+  for (int window = 0; window < 20; ++window)
+    for (const double phi : {0.3, 0.5}) {
+      auto sums = neutral_sums(phi, 2);
+      sums.of(OwnSum::inside, 1) *= 1 + 0.1 * std::sin(window * window);
+      all.push_back({1.0 * window, window + 1.0, 10, sums});
+      if (phi == 0.3) alone.push_back(all.back());
+    }
+  auto settings = settings_of("size");
+  settings.fit.thickness = Thickness::kept;  // a layer alone has no neighbours
+  BinaryArrays arrays, of_alone;
+  const auto layers = partition_data({{synthetic::stress_table(all)}, {}}, settings, arrays);
+  const auto one = partition_data({{synthetic::stress_table(alone)}, {}}, settings, of_alone);
+  ASSERT_EQ(layers["by_layer"]["layers"].size(), 2u);
+  const auto& rows = layers["by_layer"]["layers"][0]["B"];
+  for (const std::size_t k : {0u, 10u, 20u}) {
+    EXPECT_NEAR(layers["by_layer"]["p"][k], 0.05 * static_cast<double>(k), 1e-12);
+    for (const std::size_t end : {0u, 1u, 2u})
+      EXPECT_NEAR(rows[k][end], one["scan"]["B"][5 * k][end], 1e-12);
+  }
+  EXPECT_LT(rows[10][1], rows[10][0]);
+}
+
+TEST(PartitionData, SaysWhatItsIntervalsAreOverAndWhyTheyMayBeTooNarrow)
+{
+  BinaryArrays arrays;
+  const auto data = partition_data({{neutral_table(2)}, {}}, settings_of("size"), arrays);
+  EXPECT_EQ(data["over"], "windows");
+  EXPECT_EQ(data["over_words"].get<std::string>().rfind("B of these runs, if they had lasted", 0),
+            0u);
+  EXPECT_EQ(data["settings"]["times"], "0 to 2 s");
+  const std::string few = "one window is one observation, too few for an interval";
+  EXPECT_EQ(data["rules"][0]["doubt"], few) << "nothing moves between the two windows";
+  EXPECT_EQ(data["scan"]["doubts"][50], few);
+}
+
 TEST(PartitionData, SaysWhatIsMissingWhereNoLayerHoldsBothSpecies)
 {
   const auto alone = synthetic::separate_sums(0, synthetic::any_tensor(), Tensor2::Zero());

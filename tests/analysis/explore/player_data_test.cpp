@@ -23,7 +23,7 @@ ShownRun two_frames()
   first.time = 0.5;
   first.x = {0.1f, 0.2f, 0.3f};
   first.y = {0, 0.05f, -0.01f};
-  first.radius = run.radius;
+  first.z = {0, 0, 0};
   first.i = {0, 0, 1};
   first.j = {1, 2, -2};
   first.along = {2, 4, 1};
@@ -63,6 +63,20 @@ TEST(PlayerData, PositionsComeBackWithinHalfAStep)
   }
   EXPECT_EQ(data["bounds"]["x"]["from"], 0) << "a periodic axis is coded over the whole cell";
   EXPECT_DOUBLE_EQ(data["bounds"]["x"]["step"], 0.4 / 65534);
+}
+
+TEST(PlayerData, SpheresHaveTheirPlaceInTheSlice)
+{
+  auto run = two_frames();
+  run.frames[0].z = {-0.01f, 0.01f, 0.005f};
+  BinaryArrays arrays;
+  const auto data = player_data(run, {0.4, 0.5, true, 3, 0.1, true}, arrays);
+  const auto codes = unpacked::array<std::uint16_t>(arrays, "z", "u16");
+  ASSERT_EQ(codes.size(), 6u);
+  EXPECT_EQ(codes[0], 0) << "the farthest";
+  EXPECT_EQ(codes[1], 65534) << "the nearest";
+  const double from = data["bounds"]["z"]["from"], step = data["bounds"]["z"]["step"];
+  EXPECT_NEAR(from + codes[2] * step, 0.005, 0.51 * step);
 }
 
 TEST(PlayerData, ContactsAreCountedFrameByFrameAndWallsFromTheTop)
@@ -132,7 +146,7 @@ TEST(PlayerData, ManyGrainsTakeWiderNumbers)
   run.radius.resize(many, 1);
   run.species.resize(many, Species::small);
   ShownFrame frame;
-  frame.x = frame.y = frame.radius = std::vector<float>(many, 1);
+  frame.x = frame.y = frame.z = std::vector<float>(many, 1);
   frame.i = {static_cast<std::int32_t>(many - 1)};
   frame.j = {-1};
   frame.along = frame.across = {1};

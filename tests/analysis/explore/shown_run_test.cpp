@@ -147,20 +147,18 @@ TEST_F(ShownRunTest, GravityIsThatOfTheTimeWhereTheSlopeTurns)
   EXPECT_NEAR(turned, std::numbers::pi / 18 * (run.frames[1].time - run.frames[0].time), 1e-6);
 }
 
-TEST_F(ShownRunTest, OfSpheresThereAreTheDiscsThatThePlaneHalfWayAcrossCutsOut)
+TEST_F(ShownRunTest, OfSpheresThereIsTheSliceHalfWayAcrossThatIsAsThickAsTheLargest)
 {
   const auto description = spheres::description();
-  const double plane = description.box.length_z / 2;
+  const double middle = description.box.length_z / 2;
   auto frame = spheres::frame(0);
-  const double cut[] = {plane - 0.001, plane + 0.003, plane + 0.0024, plane + 0.006};
-  for (std::size_t g = 0; g < 4; ++g) frame.position[g].z() = cut[g];
+  const double z[] = {-0.0059, 0.003, 0.0059, 0.0061};  // the largest diameter is 0.012
+  for (std::size_t g = 0; g < 4; ++g) frame.position[g].z() = middle + z[g];
   const auto run = shown<3>(description, {frame});
-  ASSERT_EQ(run.row, (std::vector<std::uint32_t>{0, 1, 2})) << "the base lies beyond the plane";
-  const auto& radius = run.frames[0].radius;
-  EXPECT_NEAR(radius[0], std::sqrt(0.006 * 0.006 - 1e-6), 1e-9);
-  EXPECT_NEAR(radius[1], std::sqrt(0.004 * 0.004 - 9e-6), 1e-9);
-  EXPECT_NEAR(radius[2], std::sqrt(0.0025 * 0.0025 - 0.0024 * 0.0024), 1e-9);
-  // Only contacts of which both grains are cut; forces are components in the plane.
+  ASSERT_EQ(run.row, (std::vector<std::uint32_t>{0, 1, 2})) << "the base lies behind the slice";
+  for (std::size_t g = 0; g < 3; ++g) EXPECT_NEAR(run.frames[0].z[g], z[g], 1e-9);
+  EXPECT_NEAR(run.radius[1], 0.004, 1e-9) << "spheres are whole";
+  // Only contacts of which both grains are shown; forces are components in the plane.
   for (std::size_t k = 0; k < run.frames[0].i.size(); ++k) EXPECT_NE(run.frames[0].j[k], 3);
   const Vec2 force(-0.017, 0.013), branch(-0.007, 0.006);
   ASSERT_EQ(run.frames[0].i[1], 1);
