@@ -210,7 +210,7 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
       {"component", s.component},
       {"thickness", s.thickness},
       {"ratio_range", s.ratio_range},
-      {"heights", heights_in_words(s.filters.heights)},
+      {"heights", heights_in_words(s.filters.heights, has_annuli(tables[0]))},
       {"times", all_times ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
       {"min_solid", format_number(s.filters.min_solid)}};
   add_all(header, least_shear);
