@@ -335,6 +335,14 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
   return all;
 }
 
+std::vector<std::vector<std::string>> tables_of_shared_runs(const std::vector<FitTable>& tables)
+{
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> names;
+  for (const auto& one : tables) names[{one.run, one.flow}].push_back(one.table->name);
+  std::erase_if(names, [](const auto& of_run) { return of_run.second.size() < 2; });
+  return listed(names, [](const auto& of_run) { return of_run.second; });
+}
+
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,
                         const FitFilters& filters, const std::vector<SpeciesPair>& pairs)
 {

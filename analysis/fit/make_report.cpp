@@ -249,7 +249,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   auto all = read_fit_tables(tables, report.quantity, read);
   report.flows = find_flows(all, s.flows);
   for (const auto& table : tables) report.table_names.push_back(table.name);
-  report.shared_runs = find_runs(tables).shared(tables);
+  report.shared_runs = tables_of_shared_runs(all);
   report.species = all.front().species;
   const auto pairs = pairs_of(s, report.species);
   const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
