@@ -147,8 +147,7 @@ std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::siz
 
 std::string doubt_of_zero(const Estimate& zero)
 {
-  const bool reaches_below = zero.low<0, reaches_above = zero.high> 1;
-  if (!reaches_below && !reaches_above) return {};
+  if (!(zero.low < 0) && !(zero.high > 1)) return {};
   if (zero.high < 0 || zero.low > 1)
     return fmt::format(
         "p* = {:.3g} lies outside 0 to 1: no rule that splits mixed contacts makes B zero",
