@@ -220,7 +220,7 @@ Json settings_object(const Selected& selected, const PartitionSettings& settings
   Json object{{"component", word_of(settings.fit.component, components)},
               {"base", word_of(settings.fit.base, base_parts)},
               {"ratio_range", fmt::format("{:g}:{:g}", filters.ratio_low, filters.ratio_high)},
-              {"heights", heights_in_words(filters.heights)},
+              {"heights", heights_in_words(filters.heights, has_annuli(*selected.tables[0].table))},
               {"min_solid", format_number(filters.min_solid)},
               {"rows", data.count.sentence()},
               {"runs", fmt::format("{}", data.runs.size())},
@@ -279,6 +279,8 @@ Json partition_data(const StressTables& input, const PartitionSettings& settings
     if (population == over) object["over_words"] = words;
   object["verdict"] = report.verdict;
   object["doubts"] = report.doubts_of_tables;
+  if (const auto doubt = doubt_of_zero(report.rules.back().line.p_zero.estimate()); !doubt.empty())
+    object["doubts"].push_back(doubt);
   return object;
 }
 

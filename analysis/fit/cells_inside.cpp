@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -96,6 +97,23 @@ std::vector<bool> cells_inside(const std::vector<CellSolid>& rows, const OpenEnd
   if (rows.empty()) return {};
   const FilledCells cells(rows, ends);
   return listed(rows, [&](const CellSolid& row) { return cells.all_near(row.key, margin); });
+}
+
+HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin)
+{
+  const double half = median_solid(annuli) / 2;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  HeightRange range{infinity, -infinity};
+  double inner = 0;  // solid fraction of the next annulus inside
+  for (const auto& mean : mean_layers(annuli)) {
+    if (mean.solid >= half) range.lowest = std::min(range.lowest, mean.bottom);
+    if (mean.solid > 0) {
+      const double filled = std::min(1.0, mean.solid / inner);
+      range.highest = mean.bottom + filled * (mean.top - mean.bottom) - margin;
+    }
+    inner = mean.solid;
+  }
+  return range;
 }
 
 }  // namespace grseg

@@ -28,4 +28,10 @@ struct OpenEnds {
 std::vector<bool> cells_inside(const std::vector<CellSolid>& rows, const OpenEnds& ends,
                                double margin);
 
+/// The range of distances from the axis (m), for `--heights inside` of annuli: from the innermost
+/// annulus with at least half the median solid fraction, averaged over windows, to `margin` within
+/// the wall. There is no margin at the axis, where the bed goes on. The wall is where the outermost
+/// annulus would end if it were as full as the one inside it.
+HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin);
+
 }  // namespace grseg

@@ -190,18 +190,22 @@ std::vector<bool> rows_inside(const FitTable& run, const FitFilters& filters, do
                       margin_inside * small_diameter);
 }
 
-/// The rows of a table that a filter selects; a map has its own meaning of `inside`.
+/// The rows of a table that a filter selects; maps and annuli have their own meaning of `inside`.
 RowRange range_of(const FitTable& run, const FitFilters& filters, const LengthUnits& units)
 {
   auto own = filters;
   const auto plane = plane_of(*run.table);
-  if (plane && filters.heights == inside_the_bed) own.heights = "all";
+  const bool inside = filters.heights == inside_the_bed, annuli = has_annuli(*run.table);
+  if (inside && (plane || annuli)) own.heights = "all";
   if (plane && plane != MapPlane::xy && own.heights != "all")
     throw UsageError(
         fmt::format("--heights {}: {} is a map {}, whose cells have no height; use "
                     "inside or all",
                     own.heights, run.table->name, word_of(*plane, map_planes)));
-  return own.range(units, layers_of(run.rows));
+  const auto layers = layers_of(run.rows);
+  auto range = own.range(units, layers);
+  if (inside && annuli) range.heights = annuli_inside(layers, margin_inside * units.small_diameter);
+  return range;
 }
 
 UsedRows used_rows(const FitTable& run, const FitFilters& filters,
@@ -363,6 +367,14 @@ std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity
   const auto runs = find_runs(tables);
   for (std::size_t k = 0; k < all.size(); ++k) all[k].run = runs.run[k];
   return all;
+}
+
+std::vector<std::vector<std::string>> tables_of_shared_runs(const std::vector<FitTable>& tables)
+{
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> names;
+  for (const auto& one : tables) names[{one.run, one.flow}].push_back(one.table->name);
+  std::erase_if(names, [](const auto& of_run) { return of_run.second.size() < 2; });
+  return listed(names, [](const auto& of_run) { return of_run.second; });
 }
 
 FitData select_fit_data(const std::vector<FitTable>& tables, Quantity quantity,

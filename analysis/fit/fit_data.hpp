@@ -147,6 +147,10 @@ struct FitTable {
 std::vector<FitTable> read_fit_tables(const std::vector<Table>& tables, Quantity quantity,
                                       const std::vector<PartitionRule>& rules);
 
+/// Names of the tables of each run that has several. Tables of one bed that flows in two ways, such
+/// as down two slopes, are of two runs.
+std::vector<std::vector<std::string>> tables_of_shared_runs(const std::vector<FitTable>& tables);
+
 /// Selects the layers and windows of all tables that pass the filters, as samples of `pairs`.
 /// Windows of one run and flow are put in order of time, even if they come from several tables
 /// (runs_of_tables.hpp). phi is computed from areas or volumes; from masses if a kinetic table has

@@ -58,6 +58,12 @@ std::string share_words(const FitReport& report, std::size_t flow)
   return fmt::format("{:.3g} % of the weight", 100 * report.shares[flow]);
 }
 
+/// True if the short table has rows of B over each population, for all flows together.
+bool shows_all_populations(const FitReport& report)
+{
+  return report.shares.size() > 1;
+}
+
 /// Header line of flow m: "Phi_L = 0.06, 4 tables, 3.1 % of the weight: a.tsv b.tsv".
 std::string flow_line(const FitReport& report, std::size_t m)
 {
@@ -216,13 +222,13 @@ std::string rule_name(const FitReport& report, const RuleFit& fit)
   return report.quantity == Quantity::kinetic ? "kinetic" : fit.rule.name();
 }
 
-std::vector<std::pair<Population, std::string>> estimands(const FitReport& report)
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report, bool all)
 {
   std::set<Population> used;
   for (const auto& fit : report.rules) {
     used.insert(fit.over);
     for (const auto& [word, population, meaning] : populations)
-      if (std::isfinite(fit.at(population).low)) used.insert(population);
+      if (all && std::isfinite(fit.at(population).low)) used.insert(population);
   }
   if (report.scan) used = {report.scan->fits.front().over};
   const auto flows = static_cast<std::size_t>(
@@ -234,6 +240,23 @@ std::vector<std::pair<Population, std::string>> estimands(const FitReport& repor
                                : estimand_words(over, flows));
   });
 }
+
+namespace {
+
+/// Warnings about p*, which is the same for every rule, of each flow and of all flows.
+std::vector<std::string> doubts_of_zeros(const FitReport& report)
+{
+  std::vector<std::string> all;
+  const auto first = report.rules.empty() ? "" : rule_name(report, report.rules.front());
+  for (const auto& fit : report.rules) {
+    const auto doubt = doubt_of_zero(fit.line.p_zero.estimate());
+    if (rule_name(report, fit) != first || doubt.empty()) continue;
+    all.push_back(report.is_by_flow() ? flow_name(report, fit) + ": " + doubt : doubt);
+  }
+  return all;
+}
+
+}  // namespace
 
 std::vector<std::string> doubts(const FitReport& report)
 {
@@ -249,7 +272,7 @@ std::vector<std::string> doubts(const FitReport& report)
   if (report.scan) add("scan", report.scan->fits.front().doubt);
   auto all = report.doubts_of_tables;
   for (const auto& [doubt, names] : of_fits) all.push_back(fmt::format("{}: {}", names, doubt));
-  return all;
+  return add_all(all, doubts_of_zeros(report));
 }
 
 std::string to_tsv(const FitReport& report)
@@ -378,24 +401,36 @@ std::string matrix_text(const FitReport& report, const std::string& rule)
   return text + '\n';
 }
 
+/// The populations of the intervals of a flow, and of all flows; "" unless each flow has its rows.
+std::string populations_by_flow(const FitReport& report)
+{
+  if (!report.is_by_flow()) return "";
+  std::set<std::string> of_flow, of_all;
+  for (const auto& fit : report.rules)
+    (fit.flow ? of_flow : of_all).insert(word_of(fit.over, populations));
+  return fmt::format("intervals of one flow are over {}, of all over {}\n",
+                     fmt::join(of_flow, " or "), fmt::join(of_all, " or "));
+}
+
 /// B of all flows together over each population, the meaning of the populations, and the flows with
 /// their weights.
 std::string populations_text(const FitReport& report)
 {
-  std::string text;
+  std::string text = populations_by_flow(report);
   std::vector<Line> lines{{"all together", "B [95 %]", "over"}};
   for (const auto& fit : report.rules)
     for (const auto& [word, population, meaning] : populations) {
       const auto& b = fit.at(population);
-      if (report.shares.size() < 2 || fit.flow || !std::isfinite(b.value)) continue;
+      if (!shows_all_populations(report) || fit.flow || !std::isfinite(b.value)) continue;
       lines.push_back({row_name(report, fit), b_text(report, b), word});
     }
   if (lines.size() > 1) text += '\n' + with_words_outside(lines);
   if (report.flows.empty()) return text;
-  const auto words = estimands(report);
+  const auto words = estimands(report, shows_all_populations(report));
   if (!words.empty()) text += '\n';
   for (const auto& [over, sentence] : words)
-    text += wrapped(fmt::format("over {}: {}", word_of(over, populations), sentence));
+    text += wrapped(fmt::format("{}over {}: {}", words.size() == 1 ? "intervals " : "",
+                                word_of(over, populations), sentence));
   if (report.flows.size() < 2) return text;
   text += '\n';
   for (std::size_t m = 0; m < report.flows.size(); ++m)

@@ -52,8 +52,9 @@ std::string rule_name(const FitReport& report, const RuleFit& fit);
 /// fit of each rule, then in the scan.
 std::vector<std::string> doubts(const FitReport& report);
 
-/// Populations of the intervals in the report, each with the sentence on what B is over.
-std::vector<std::pair<Population, std::string>> estimands(const FitReport& report);
+/// Populations of the intervals in the report, each with the sentence on what B is over; if not
+/// `all`, only of the first interval of each rule.
+std::vector<std::pair<Population, std::string>> estimands(const FitReport& report, bool all = true);
 
 /// A number of the report.
 struct NumberRow {

@@ -211,7 +211,7 @@ Header header_of(const ToolInfo& info, const FitOptions& s, const std::string& p
       {"component", s.component},
       {"thickness", s.thickness},
       {"ratio_range", s.ratio_range},
-      {"heights", heights_in_words(s.filters.heights)},
+      {"heights", heights_in_words(s.filters.heights, has_annuli(tables[0]))},
       {"times", all_times ? "all" : fmt::format("{:g}:{:g}", s.filters.begin, s.filters.end)},
       {"min_solid", format_number(s.filters.min_solid)}};
   add_all(header, least_shear);
@@ -250,7 +250,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   auto all = read_fit_tables(tables, report.quantity, read);
   report.flows = find_flows(all, s.flows);
   for (const auto& table : tables) report.table_names.push_back(table.name);
-  report.shared_runs = find_runs(tables).shared(tables);
+  report.shared_runs = tables_of_shared_runs(all);
   report.species = all.front().species;
   const auto pairs = pairs_of(s, report.species);
   const auto data = select_fit_data(all, report.quantity, s.filters, pairs);

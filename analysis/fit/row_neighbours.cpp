@@ -46,7 +46,7 @@ std::vector<RowNeighbours::Direction> RowNeighbours::directions_of(const Table& 
   Direction first{&LayerKey::left, &LayerKey::right, &LayerKey::bottom};
   Direction second{&LayerKey::bottom, &LayerKey::top, &LayerKey::left};
   if (!plane) {
-    second.radial = header_or(table, "bins", "").starts_with("radius");
+    second.radial = has_annuli(table);
     return {second};
   }
   const std::string axes = word_of(*plane, map_planes);

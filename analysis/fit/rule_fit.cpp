@@ -47,6 +47,13 @@ double degrees_taken_by_composition(const FitData& data)
                                 numbers_of(data.samples, &LayerSample::weight_in_b), flow);
 }
 
+/// doubt_of_runs, with what these very runs tell.
+std::string doubt_of_few_runs(const Eigen::VectorXd& weight)
+{
+  const auto doubt = doubt_of_runs(weight);
+  return doubt.empty() ? doubt : doubt + "; --over windows gives the scatter within these runs";
+}
+
 /// Warning about the interval of B, usually "".
 std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& windows)
 {
@@ -56,12 +63,12 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
   if (fit.over == Population::windows)
     return doubt_of_windows(windows.excess_noise(), weight, data.runs);
   const auto flows = data.number_of_flows();
-  if (flows == 1) return doubt_of_runs(by_run(weight, data.runs));
+  if (flows == 1) return doubt_of_few_runs(by_run(weight, data.runs));
   const Errors errors(data, weight);
   if (fit.over == Population::compositions) {
     const double chance = errors.chance_of_likeness(influence_on(&Estimators::B, windows).noise,
                                                     degrees_taken_by_composition(data));
-    if (chance >= 0.05) return doubt_of_runs(by_run(weight, data.runs));
+    if (chance >= 0.05) return doubt_of_few_runs(by_run(weight, data.runs));
     return fmt::format(
         "flows differ by more than one function of composition explains (Fisher's test: {:.2g}): "
         "the interval over compositions is too wide for these flows and too narrow for others; "
@@ -136,6 +143,19 @@ std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::siz
       "{} runs of {} flows leave {:.2g} degrees of freedom; more runs of each flow "
       "give a narrower interval",
       fit.runs, flows, fit.degrees);
+}
+
+std::string doubt_of_zero(const Estimate& zero)
+{
+  if (!(zero.low < 0) && !(zero.high > 1)) return {};
+  if (zero.high < 0 || zero.low > 1)
+    return fmt::format(
+        "p* = {:.3g} lies outside 0 to 1: no rule that splits mixed contacts makes B zero",
+        zero.value);
+  return fmt::format(
+      "the interval of p*, [{:.3g}, {:.3g}], reaches beyond 0 to 1, where the shares of all rules "
+      "lie: these data do not determine p*",
+      zero.low, zero.high);
 }
 
 void add_doubt(RuleFit& fit, const std::string& doubt)

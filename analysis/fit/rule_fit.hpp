@@ -61,6 +61,10 @@ void set_error(RuleFit& fit, double Estimators::*place, const StandardError& err
 /// few degrees of freedom. Usually "".
 std::string doubt_of_flows(const RuleFit& fit, std::size_t single_runs, std::size_t flows);
 
+/// Warning that the 95 % interval of p* leaves 0 to 1, usually "". The share of a mixed contact
+/// lies between 0 and 1 for every rule that splits its stress.
+std::string doubt_of_zero(const Estimate& zero);
+
 /// Appends a sentence to fit.doubt.
 void add_doubt(RuleFit& fit, const std::string& doubt);
 

@@ -40,22 +40,11 @@ HeightRange between(const std::string& text, LengthUnits units)
 HeightRange inside_of(const std::vector<LayerSolid>& layers, double small_diameter)
 {
   const double median = median_solid(layers);
-  struct Mean {
-    double top = 0, frames = 0, solid = 0;
-  };
-  std::map<double, Mean> means;  // by the layer's bottom, m
-  for (const auto& layer : layers) {
-    if (!(layer.frames > 0)) continue;
-    auto& mean = means[layer.bottom];
-    mean.top = layer.top;
-    mean.frames += layer.frames;
-    mean.solid += layer.frames * layer.solid;
-  }
   double base = std::numeric_limits<double>::infinity(), height = 0;
-  for (const auto& [bottom, mean] : means) {
-    const double filled = mean.solid / mean.frames / median;
-    if (filled >= 0.5) base = std::min(base, bottom);
-    height += filled * (mean.top - bottom);
+  for (const auto& mean : mean_layers(layers)) {
+    const double filled = mean.solid / median;
+    if (filled >= 0.5) base = std::min(base, mean.bottom);
+    height += filled * (mean.top - mean.bottom);
   }
   return {base + margin_inside * small_diameter, base + height - margin_inside * small_diameter};
 }
@@ -70,12 +59,27 @@ double median_solid(const std::vector<LayerSolid>& layers)
   return solid.empty() ? 0 : gsl_stats_median(solid.data(), 1, solid.size());
 }
 
-std::string heights_in_words(const std::string& text)
+std::vector<LayerSolid> mean_layers(const std::vector<LayerSolid>& layers)
 {
-  return text == inside_the_bed
-             ? fmt::format("inside: without {:g} d_S at the base and under the surface",
-                           margin_inside)
-             : text;
+  std::map<double, LayerSolid> means;  // by the layer's bottom, m
+  for (const auto& layer : layers) {
+    if (!(layer.frames > 0)) continue;
+    auto& mean = means.try_emplace(layer.bottom, LayerSolid{layer.bottom, layer.top}).first->second;
+    mean.frames += layer.frames;
+    mean.solid += layer.frames * layer.solid;
+  }
+  return listed(means, [](const auto& entry) {
+    auto mean = entry.second;
+    mean.solid /= mean.frames;
+    return mean;
+  });
+}
+
+std::string heights_in_words(const std::string& text, bool annuli)
+{
+  if (text != inside_the_bed) return text;
+  return fmt::format("inside: without {:g} d_S at the {}", margin_inside,
+                     annuli ? "wall" : "base and under the surface");
 }
 
 void check_heights(const std::string& text)
@@ -281,6 +285,11 @@ std::optional<MapPlane> plane_of(const Table& table)
 {
   const auto bins = header_or(table, "bins", "");
   return find_choice(bins.substr(0, bins.find(' ')), map_planes);
+}
+
+bool has_annuli(const Table& table)
+{
+  return header_or(table, "bins", "").starts_with("radius");
 }
 
 void refuse_map(const Table& table)

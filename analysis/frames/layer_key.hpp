@@ -38,6 +38,8 @@ struct LayerSolid {
 
 /// The median solid fraction of the layers that are not empty; 0 if all are empty.
 double median_solid(const std::vector<LayerSolid>& layers);
+/// Each layer with its mean solid fraction over the frames of all windows, from the lowest upward.
+std::vector<LayerSolid> mean_layers(const std::vector<LayerSolid>& layers);
 
 /// Default value of --heights in every tool that combines layers.
 inline constexpr const char* inside_the_bed = "inside";
@@ -45,10 +47,10 @@ inline constexpr const char* inside_the_bed = "inside";
 inline constexpr double margin_inside = 4;
 /// Values of --heights, for --help.
 inline constexpr const char* heights_help =
-    "inside (without 4 dS at the base and 4 dS under the surface), all, or y0:y1, e.g. 4dS:56dS or "
-    "4dS: (dS, dL: diameters of small and large grains)";
-/// Description of a value of --heights for the header of a table.
-std::string heights_in_words(const std::string& text);
+    "inside (without 4 dS at the base and 4 dS under the surface; of annuli: without 4 dS at the "
+    "wall), all, or y0:y1, e.g. 4dS:56dS or 4dS: (dS, dL: diameters of small and large grains)";
+/// Description of a value of --heights for the header of a table, of layers or of annuli.
+std::string heights_in_words(const std::string& text, bool annuli = false);
 
 /// Throws UsageError if the text is not a value of --heights.
 void check_heights(const std::string& text);
@@ -141,6 +143,8 @@ Header provenance_of(const std::vector<Table>& tables, const ToolInfo& info,
                      const std::string& preset, const std::string& command);
 /// The plane of a map (header line "bins"); nothing for tables by layer or annulus.
 std::optional<MapPlane> plane_of(const Table& table);
+/// True if the rows of a table are annuli, whose "heights" are distances from an axis.
+bool has_annuli(const Table& table);
 /// Throws FormatError if a table is a map, which has rows of cells.
 void refuse_map(const Table& table);
 

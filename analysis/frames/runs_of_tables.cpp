@@ -321,14 +321,6 @@ RunsOfTables find_runs(const std::vector<Table>& tables)
   return runs;
 }
 
-std::vector<std::vector<std::string>> RunsOfTables::shared(const std::vector<Table>& tables) const
-{
-  std::vector<std::vector<std::string>> names(tables.size());
-  for (std::size_t k = 0; k < tables.size(); ++k) names[run[k]].push_back(tables[k].name);
-  std::erase_if(names, [](const auto& of_run) { return of_run.size() < 2; });
-  return names;
-}
-
 std::string RunsOfTables::doubt(const std::vector<Table>& tables) const
 {
   constexpr std::size_t most = 4;

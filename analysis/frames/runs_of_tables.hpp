@@ -64,8 +64,6 @@ struct RunsOfTables {
   std::vector<std::size_t> run;     // number of each table's run, from 0 in order of appearance
   std::vector<std::size_t> untold;  // tables that may be of the run of another table
 
-  /// Names of the tables of each run that has several tables.
-  std::vector<std::vector<std::string>> shared(const std::vector<Table>& tables) const;
   /// A warning about the tables in `untold`; "" if there are none.
   std::string doubt(const std::vector<Table>& tables) const;
 };

@@ -7,11 +7,13 @@
         for frame in run.frames(begin=5):
             print(frame.time, frame.contacts.force.shape)
         sums = run.contact_sums(layer="4dS", window=1.25)
-    print(grseg.Points(sums).fit("size").B)
+        own = grseg.fit(run, lambda r_large, r_small: r_large**3 / (r_large**3 + r_small**3))
+    print(grseg.fit(sums, "size").B, own.B)
 
-Units are SI; x points down the slope, y up from the base, z across; D is 2 (discs) or 3 (spheres);
-stress is in N/m or Pa, positive in compression (formats/README.md). Words: docs/glossary.md. Sums agree
-to round-off with grseg-stress and grseg-kinetic with their default --assign, estimates with grseg-fit.
+Units are SI, also those of arguments: a length is a number in m or text with a unit, a time is in s. x points
+down the slope, y up from the base, z across; D is 2 (discs) or 3 (spheres); stress is in N/m or Pa, positive in
+compression (formats/README.md). Words: docs/glossary.md. Sums agree to round-off with grseg-stress and
+grseg-kinetic with their default --assign, estimates with grseg-fit.
 
 This module does NOT verify the digests of runs (use grseg-check RUN.h5) or the checksum in the last line
 of a table. It has no intervals over several flows (grseg-fit has) and no --assign, --bins or --group.
@@ -21,17 +23,20 @@ A file that is damaged, unfinished or not made by grseg raises grseg.Error, a wr
 import collections
 import dataclasses
 import functools
+import inspect
 import itertools
 import math
 import pathlib
 import re
+import types
 import zlib
+from numbers import Real
 
 import h5py
 import numpy as np
 
 __all__ = ["Run", "Frame", "Contacts", "Species", "Window", "Table", "Points", "Fit", "Error",
-           "read_table", "partial_stress"]
+           "read_table", "partial_stress", "fit"]
 
 
 class Error(Exception):
@@ -144,7 +149,8 @@ class Run:
         return self._read(f"observables/{name}/value", 0, len(self))
 
     def metres(self, text):
-        """A length in m, given as a number or as text: 0.02, "20mm", "2cm", "4dS" or "2dL" (nominal diameters)."""
+        """A length in m, given as text with a unit, "0.02m", "20mm", "2cm", "4dS" or "2dL" (nominal diameters), or as
+        a number, which is in m: 0.02."""
         return _metres(text, self.small_diameter, self.large_diameter)
 
     def windows(self, length=1.25, begin=None, end=None, stride=1):
@@ -153,25 +159,44 @@ class Run:
         fill are left out. length="all" is one window over all frames used."""
         return _cut_into_windows(self, length, begin, end, stride)[1]
 
-    def contact_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, power=None):
+    def contact_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, power=None, rule=None):
         """Sums of force (x) branch, the tensor product, by layer, window and pair of species. The Table
         has the columns of grseg-stress: areas or volumes of the grains, numbers of contacts, and tensors
-        (N m), all as means per frame. A contact is counted in the layer of its contact point. If `power`
-        is given, the Q of the rule power:Q, the Table has Mpower, too."""
-        return self._tabulate(functools.partial(_contact_sums, self, power=power), _stress_columns(self, power), layer,
-                              (window, begin, end, stride), _stress_header(power))
+        (N m), all as means per frame. A contact is counted in the layer of its contact point.
+
+        layer     thickness of the layers: text with a unit (`metres`), or a number in m
+        window    length of the windows, s; begin, end: times, s; stride: use every stride-th frame (`windows`)
+        power     the Q of a rule power:Q: the Table has Mpower, too
+        rule      a rule of your own (`fit`): the Table has Mrule, too, and keeps the rule as `rule`. A rule by name
+                  that needs sums of its own, "power:Q", sets `power`."""
+        if isinstance(rule, str):
+            word, number = _parse_rule(rule)
+            power, rule = number if word == "power" else power, None
+        shares = _shares(power, rule)
+        table = self._tabulate(functools.partial(_contact_sums, self, shares=shares), _stress_columns(self, shares), layer,
+                               (window, begin, end, stride), _stress_header(power))
+        table.rule = rule
+        return table
 
     def kinetic_sums(self, layer="4dS", window=1.25, begin=None, end=None, stride=1, mean="profile"):
         """Sums of m dv (x) dv by layer, window and species, as a Table with columns of grseg-kinetic:
         masses, mean flow, K (J), Kr of rotation (J), numbers of grains. dv is the velocity minus a mean
         velocity: a fine profile over height (mean="profile") or the mean of the layer (mean="layer").
-        Both means are over the window, whose frames are read twice."""
+        Both means are over the window, whose frames are read twice. The other arguments are those of
+        `contact_sums`: `layer` is text with a unit or a number in m, times are in s."""
         if mean not in ("profile", "layer"):
             raise ValueError(f"mean = {mean!r}: write profile or layer; grseg-kinetic has more choices")
         return self._tabulate(functools.partial(_kinetic_sums, self, mean=mean), _kinetic_columns(self), layer,
                               (window, begin, end, stride), {"mean": mean})
 
     # Functions below are used in this file only.
+
+    def _thickness(self, layer):
+        """`layer` in m. A number that is larger than the cell was rather meant in diameters."""
+        if isinstance(layer, Real) and layer > self.length:
+            raise ValueError(f"layer = {layer} is {layer} m, more than the {self.length:g} m of the cell: write \"{layer}dS\" "
+                             f"for small diameters, or \"{layer}m\"")
+        return self.metres(layer)
 
     def _fail(self, why):
         raise Error(f"{self.path}: {why}")
@@ -355,7 +380,7 @@ class Run:
 
     def _tabulate(self, sums_of_window, columns, layer, window, settings):
         np.empty(1 << 21)  # after this, glibc reuses freed memory up to 16 MB for temporaries: twice as fast
-        layers = _Layers(self.metres(layer), self.length, self.width, self.path)
+        layers = _Layers(self._thickness(layer), self.length, self.width, self.path)
         length, windows = _cut_into_windows(self, *window)
         rows = []
         for begin, end, frames in windows:
@@ -373,14 +398,17 @@ def _text(value):
 
 
 def _metres(text, small_diameter, large_diameter):
-    if isinstance(text, (int, float)):
+    if isinstance(text, Real):
         return float(text)
-    units = {"": 1, "m": 1, "mm": 1e-3, "cm": 1e-2, "dS": small_diameter, "dL": large_diameter}
-    number = text.rstrip("mcdSL")
+    units = {"m": 1, "mm": 1e-3, "cm": 1e-2, "dS": small_diameter, "dL": large_diameter}
+    number = str(text).rstrip("mcdSL")
     try:
-        return float(number) * units[text[len(number):]]
+        value = float(number)
+        if number != text or value == 0:
+            return value * units[text[len(number):] or "m"]
     except (ValueError, KeyError):
-        raise ValueError(f"{text!r} is not a length: give metres, or a text such as 20mm, 4dS or 2dL") from None
+        raise ValueError(f"{text!r} is not a length: give a number with a unit, as in 0.02m, 20mm, 4dS, 2dL") from None
+    raise ValueError(f"{text!r} has no unit: {text}dS, {text}dL or {text}m?")
 
 
 class _Block:
@@ -729,15 +757,15 @@ def _with_components(stems, axes, unit):
     return [f"{stem}_{a}{b}[{unit}]" for stem in stems for a in axes for b in axes]
 
 
-def _stress_columns(run, power):
+def _stress_columns(run, shares):
     names, count = _Names(run.species, run.dimension), len(run.species)
     own = range(count)
     stems = [names.inside(k) for k in own]
     for stem in ("M", "Msize", "Mcp"):
         stems += [names.pair(stem, a, b) for a, b in _pairs(count)]
     stems += [names.base("A", k) for k in own] + [names.base("F", k) for k in own]
-    if power is not None:
-        stems += [names.pair("Mpower", a, b) for a, b in _pairs(count)]
+    for stem in shares:
+        stems += [names.pair(f"M{stem}", a, b) for a, b in _pairs(count)]
     contents = [f"{name}[m^{run.dimension}]" for name in names.contents]
     word = "volume" if run.dimension == 3 else "area"
     motion = [f"{word}_u[m^{run.dimension + 1}/s]", f"{word}_v2[m^{run.dimension + 2}/s^2]"]
@@ -749,27 +777,27 @@ def _stress_header(power):
     return header if power is None else header | {"partition": f"power:{power:g}", "power": f"{power:.17g}"}
 
 
-def _contact_sums(run, layers, frames, power):
-    """Values of _stress_columns [layers, columns]."""
+def _contact_sums(run, layers, frames, shares):
+    """Values of _stress_columns [layers, columns]; `shares`: rules that need sums of their own (_shares)."""
     species = len(run.species)
     bins = _code(0, species) + species
     content, motion, number = np.zeros((0, species, 1)), np.zeros((0, 1, 2)), np.zeros((0, bins, 1))
     # Sums of force (x) a part of the branch. whole: the whole branch. cut: from the centre of the larger grain, or of
-    # the grain at the base, to the contact point. size, power: the larger grain's share by size and by power:Q.
-    sums = {name: np.zeros((0, bins, run.dimension**2)) for name in ("whole", "cut", "size", "power")}
+    # the grain at the base, to the contact point. Others: the larger grain's share by a rule.
+    shares = {"size": _power_share(1)} | shares
+    sums = {name: np.zeros((0, bins, run.dimension**2)) for name in ("whole", "cut", *shares)}
     for block in run._blocks(frames):
         counts = layers.counts(block)
         most = counts.max(initial=1)
         content, motion, number = (_grow(values, most) for values in (content, motion, number))
         sums = {name: _grow(values, most) for name, values in sums.items()}
         _add_contents(run, layers, block, counts, content, motion)
-        _add_contacts(run, layers, block, counts, number, sums, power)
+        _add_contacts(run, layers, block, counts, number, sums, shares)
     own, base = [_code(k, k) for k in range(species)], [_code(k, species) for k in range(species)]
     mixed = [_code(a, b) for a, b in _pairs(species)]
     parts = [content, motion, number, sums["whole"][:, own], sums["whole"][:, mixed], sums["size"][:, mixed],
              sums["cut"][:, mixed], sums["cut"][:, base], sums["whole"][:, base]]
-    if power is not None:
-        parts.append(sums["power"][:, mixed])
+    parts += [sums[name][:, mixed] for name in shares if name != "size"]
     return np.concatenate([part.reshape(len(part), -1) for part in parts], axis=1) / len(frames)
 
 
@@ -802,7 +830,7 @@ def _add_contents(run, layers, block, counts, content, motion):
             values.take(cut) for values in (n + 1, last, y, r, kind, whole, u, square, here))
 
 
-def _add_contacts(run, layers, block, counts, number, sums, power):
+def _add_contacts(run, layers, block, counts, number, sums, shares):
     """Adds numbers and force (x) branch of force-bearing contacts to the layers of their contact points."""
     force, branch = block.contacts("force"), block.contacts("branch")
     i, j, frame = block.contacts("i"), block.contacts("j"), block.frame_of_contact
@@ -825,17 +853,39 @@ def _add_contacts(run, layers, block, counts, number, sums, power):
     _book(sums["whole"], place, stress)
 
     unlike = np.flatnonzero(kind_i != kind_j)
-    place, i, j, kind_i, kind_j, share_i, *stress = (
-        values.take(unlike) for values in (place, i, j, kind_i, kind_j, share_i, *stress))
-    base, i_is_larger = kind_j == len(run.species), kind_i > kind_j
-    cut = np.where(i_is_larger | base, share_i, 1 - share_i)
-    _book(sums["cut"], place, [cut * component for component in stress])
-    r_i, r_j = run.radius.take(i), run._partner_radius[np.maximum(j, -1)]
-    ratio = np.where(base, 1.0, np.where(i_is_larger, r_j / r_i, r_i / r_j))  # smaller radius over larger one
-    for name, exponent in (("size", 1), ("power", power)):
-        if exponent is not None:
-            by_rule = 1 / (1 + ratio**exponent)
-            _book(sums[name], place, [by_rule * component for component in stress])
+    place, i, j, kind_i, kind_j, share_i, gap, *vectors = (
+        values.take(unlike) for values in (place, i, j, kind_i, kind_j, share_i, gap, *force, *branch))
+    cut = np.where((kind_i > kind_j) | (kind_j == len(run.species)), share_i, 1 - share_i)
+    force, branch = vectors[:run.dimension], vectors[run.dimension:]
+    _book(sums["cut"], place, [cut * f * b for f in force for b in branch])
+
+    mixed = np.flatnonzero(kind_j < len(run.species))
+    place, i, j, kind_i, kind_j, gap, *vectors = (
+        values.take(mixed) for values in (place, i, j, kind_i, kind_j, gap, *force, *branch))
+    force, branch = vectors[:run.dimension], vectors[run.dimension:]
+    if len(gap) == 0:
+        return
+    contacts = _MixedContacts(run, i, j, kind_i, kind_j, gap, force, branch)
+    for name, share in shares.items():
+        by_rule = _share_by(share, contacts, len(gap))
+        _book(sums[name], place, [by_rule * f * b for f in force for b in branch])
+
+
+class _MixedContacts:
+    """Contacts between mobile grains of two species, whose fields are what a rule may ask for (`fit`). Force and branch
+    are given by component, force on i from j."""
+
+    def __init__(self, run, i, j, kind_i, kind_j, gap, force, branch):
+        i_is_larger = kind_i > kind_j
+        r_i, r_j = run.radius.take(i), run.radius.take(j)
+        diameters = np.array([one.diameter for one in run.species])
+        self.r_large, self.r_small = np.where(i_is_larger, r_i, r_j), np.where(i_is_larger, r_j, r_i)
+        self.d_large, self.d_small = (diameters[end(kind_i, kind_j)] for end in (np.maximum, np.minimum))
+        self.gap = gap
+        self._sign, self._force, self._branch = np.where(i_is_larger, 1.0, -1.0), force, branch
+
+    force = property(lambda self: np.stack(self._force, axis=1) * self._sign[:, None])
+    branch = property(lambda self: np.stack(self._branch, axis=1) * self._sign[:, None])
 
 
 def _kinetic_columns(run):
@@ -968,6 +1018,7 @@ class Table:
     columns    names of the columns without units; `units` has the units by name
     values     numbers [rows, columns]
     dimension, species    D and mobile Species of the run
+    rule       the rule of your own for which Run.contact_sums made the column Mrule; otherwise None
 
     table["A_SS_yy"] is a column [rows], table.tensor("A_SS") a tensor [rows, D, D], table.to_pandas() a DataFrame.
     """
@@ -980,6 +1031,7 @@ class Table:
         self._place = {column: k for k, column in enumerate(self.columns)}
         self.dimension = int(header.get("dimension", "2"))
         self.species = self._species()
+        self.rule = None
 
     def __len__(self):
         return len(self.values)
@@ -1208,8 +1260,11 @@ def _find_runs(tables):
 # --------------------------------------------------------------------------- partition and estimates
 
 def _parse_rule(rule):
-    """Word and number of a rule: ("power", 2.0) for "power:2"; the number is None for rules without one."""
-    word, colon, text = rule.partition(":")
+    """Word and number of a rule: ("power", 2.0) for "power:2"; the number is None for rules without one. For a rule of
+    one's own the word is "own", and the function takes the place of the number."""
+    if callable(rule):
+        return "own", rule
+    word, colon, text = str(rule).partition(":")
     try:
         if word in ("uniform", "power") and colon:
             number = float(text)
@@ -1219,7 +1274,61 @@ def _parse_rule(rule):
             return word, 0.5 if word == "half" else None
     except ValueError:
         pass
-    raise ValueError(f"{rule!r} is not a rule: size, contact-point, half, drop, uniform:P (0 to 1) or power:Q")
+    raise ValueError(f"{rule!r} is not a rule: size, contact-point, half, drop, uniform:P (0 to 1), power:Q or a function")
+
+
+# Arguments that a rule of one's own may have: those that depend on the species alone, and those of a contact.
+_OF_SPECIES, _OF_CONTACTS = ("d_large", "d_small"), ("r_large", "r_small", "gap", "force", "branch")
+
+
+def _name_of(rule):
+    return getattr(rule, "__name__", repr(rule)) if callable(rule) else rule
+
+
+def _arguments(rule):
+    """Names of the arguments that a rule of one's own asks for."""
+    asked = inspect.signature(rule).parameters.values()
+    names = [one.name for one in asked if one.name in _OF_SPECIES + _OF_CONTACTS or one.default is one.empty]
+    for name in names:
+        if name not in _OF_SPECIES + _OF_CONTACTS:
+            raise ValueError(f"the rule {_name_of(rule)} has the argument {name!r}; grseg knows "
+                             f"{', '.join(_OF_SPECIES + _OF_CONTACTS)}")
+    return names
+
+
+def _share_by(rule, contacts, count):
+    """The larger grain's share of each of `count` contacts by a rule of one's own, whose arguments are fields of `contacts`;
+    one number if the rule returns one."""
+    share = np.asarray(rule(**{name: getattr(contacts, name) for name in _arguments(rule)}), float)
+    if share.shape not in ((), (count,)):
+        raise ValueError(f"the rule {_name_of(rule)} returns an array of shape {share.shape} for {count} contacts; it should "
+                         "return one number, or one for each contact")
+    if not np.isfinite(share).all():
+        raise ValueError(f"the rule {_name_of(rule)} returns {share[~np.isfinite(share)][0]} for a contact; a share should be "
+                         "a finite number")
+    return share
+
+
+def _power_share(exponent):
+    """The rule power:Q as a function; Q = 1 is the rule by size."""
+    return lambda r_large, r_small: 1 / (1 + (r_small / r_large)**exponent)
+
+
+def _shares(power, rule):
+    """Rules that need a sum over contacts of their own, as functions by the name of the sum."""
+    return ({} if power is None else {"power": _power_share(power)}) | ({} if rule is None else {"rule": rule})
+
+
+def _share_of_pair(table, rule, number, a, b):
+    """The share of every contact between species a < b, if the rule gives all of them one share; otherwise None."""
+    if not callable(number) or table.rule is number:
+        return number if rule in ("half", "uniform") else None
+    asked = [name for name in _arguments(number) if name in _OF_CONTACTS]
+    if asked:
+        raise ValueError(f"{table.name}: the rule {_name_of(number)} asks for {asked[0]} of each contact, and the table has only "
+                         "sums over contacts: give the run, grseg.fit(run, rule), or make the table with contact_sums(rule=rule)")
+    pair = types.SimpleNamespace(d_large=table.species[b].diameter, d_small=table.species[a].diameter)
+    return float(_share_by(number, pair, 1))
 
 
 def _parts_of(table, names, rule, number, a, b):
@@ -1228,13 +1337,14 @@ def _parts_of(table, names, rule, number, a, b):
     of = lambda stem: table.tensor(names.pair(stem, a, b))
     if rule == "drop":
         return 0, 0
-    if rule in ("half", "uniform"):
+    share = _share_of_pair(table, rule, number, a, b)
+    if share is not None:
         at_centres = names.pair("ML", 0, 1) + "_xx" in table  # --assign grain: each part is counted at its grain
-        return number * of("ML" if at_centres else "M"), (1 - number) * of("MS" if at_centres else "M")
+        return share * of("ML" if at_centres else "M"), (1 - share) * of("MS" if at_centres else "M")
     if rule == "power" and float(table.header.get("power", "nan")) != number:
         raise Error(f"{table.name}: its column Mpower_* was not made with power:{number:g}; make the table with "
                     f"--partition power:{number:g}, or contact_sums(power={number:g})")
-    larger = of({"size": "Msize", "contact-point": "Mcp", "power": "Mpower"}[rule])
+    larger = of({"size": "Msize", "contact-point": "Mcp", "power": "Mpower", "own": "Mrule"}[rule])
     return larger, of("M") - larger
 
 
@@ -1243,8 +1353,8 @@ def partial_stress(table, rule="size", base=None):
     Pa. sigma^nu = (A + parts of mixed contacts + part of contacts with the base)/V, with A the sum over contacts inside
     the species. The species' stresses add up to the total for every rule except drop.
 
-    rule    rule for the larger grain's share of a mixed contact: "size", "contact-point", "half", "drop", "uniform:P"
-            or "power:Q"; power:Q needs a table made with the same Q
+    rule    rule for the larger grain's share of a mixed contact: "size", "contact-point", "half", "drop", "uniform:P",
+            "power:Q" or a function of your own (`fit`); power:Q needs a table made with the same Q
     base    part of a contact with base or walls that its grain gets: "contact-point", "half" or "none"; default: as in
             the table
     """
@@ -1253,7 +1363,8 @@ def partial_stress(table, rule="size", base=None):
     base = base or table.header.get("base", "contact-point")
     if base not in ("contact-point", "half", "none"):
         raise ValueError(f"base = {base!r}: contact-point, half or none")
-    at_centres = rule in ("half", "uniform") and names.pair("ML", 0, 1) + "_xx" in table
+    at_centres = (names.pair("ML", 0, 1) + "_xx" in table and rule != "drop"
+                  and _share_of_pair(table, rule, number, 0, 1) is not None)
     own = [table.tensor(names.halves(k) if at_centres else names.inside(k)) for k in range(count)]
     dropped = np.zeros_like(own[0])
     for a, b in _pairs(count):
@@ -1273,12 +1384,12 @@ def partial_stress(table, rule="size", base=None):
 
 @dataclasses.dataclass
 class Fit:
-    """Estimates for two species by a rule. The segregation strength B of psi_L = phi_L (1 + B phi_S) is a mean over
+    """Estimates for two species by a rule, whose name is `rule`. The segregation strength B of psi_L = phi_L (1 + B phi_S) is a mean over
     layers and frames with the weight phi_L phi_S. Names and definitions agree with grseg-fit; NaN means undefined.
 
     An interval is (low, high), 95 %, as in grseg-fit over the windows of one run or the runs of one flow; it is NaN
     for several flows. grseg-fit also has intervals over flows and for the fits of Staron & Phillips (2015), and warns
-    if an interval is doubtful, for instance because few windows are independent.
+    if an interval is doubtful, for instance because few windows are independent; here `doubt` is about p_zero alone.
     """
 
     rule: str
@@ -1297,11 +1408,27 @@ class Fit:
     over: str        # population of the intervals: "windows" or "runs"; "" for several flows
     degrees_of_freedom: float
 
+    @property
+    def doubt(self):
+        """The reason why p_zero is not determined, as grseg-fit prints it; "" if there is none. The share of a mixed
+        contact lies between 0 and 1 for every rule that splits its stress."""
+        low, high = self.p_zero_interval
+        if high < 0 or low > 1:
+            return f"p* = {self.p_zero:.3g} lies outside 0 to 1: no rule that splits mixed contacts makes B zero"
+        if low < 0 or high > 1:
+            return (f"the interval of p*, [{low:.3g}, {high:.3g}], reaches beyond 0 to 1, where the shares of all rules lie: "
+                    "these data do not determine p*")
+        return ""
+
+
+def _has_annuli(table):
+    return table.header.get("bins", "").startswith("radius")
+
 
 def _weight_in_layers(table):
     """Mean height less the middle, and second moment about the mean, of the weight in the means of each layer [rows], in
     units of its thickness and of the square of it (analysis/fit/row_neighbours.hpp)."""
-    if table.header.get("bins", "").startswith("radius"):
+    if _has_annuli(table):
         with np.errstate(invalid="ignore", divide="ignore"):
             n = (table["y0"] + table["y1"]) / 2 / (table["y1"] - table["y0"])
             return 1 / (12 * n), 1 / 12 - 1 / (144 * n**2)
@@ -1320,7 +1447,8 @@ class Points:
     base           part of contacts with the base that its grain gets; default: as in the first table
     pair           names of the two species, if the tables have more
     ratio_range    range of phi_S/phi_L
-    heights        range of the layers: "inside" (without 4 d_S at the base and under the surface), "all", "4dS:56dS" or "4dS:"
+    heights        range of the layers: "inside" (without 4 d_S at the base and under the surface; of annuli: without 4 d_S
+                   at the wall), "all", or text with units, "4dS:56dS", "0.02m:" or ":120mm"
     min_solid      least solid fraction of a layer, over the median of the run
     begin, end     range of the windows, s
     thickness      part of B that gradients inside the layers add: "removed" or "kept" (grseg-fit --thickness)
@@ -1372,7 +1500,7 @@ class Points:
             small[own], large[own] = (of_species[rows, species] for species in self.pair)
             total[own] = of_all[rows] if len(table.species) == 2 else small[own] + large[own]
         if not np.isfinite(small + large + total).all():
-            raise Error(f"{self.tables[0].name}: a stress by {rule} is not finite; make the table again")
+            raise Error(f"{self.tables[0].name}: a stress by {_name_of(rule)} is not finite; make the table again")
         return small, large, total
 
     def _resolved(self, rule):
@@ -1386,7 +1514,7 @@ class Points:
         return small, large, total
 
     def fit(self, rule="size"):
-        """The Fit under a rule; for kinetic stress it is the same for every rule."""
+        """The Fit under a rule (`partial_stress`); for kinetic stress it is the same for every rule."""
         small, large, total = self.stresses(rule)
         paper = _fits_of_the_paper(self.x, small, large, self.weight)
         small, large, total = self._resolved(rule)
@@ -1409,7 +1537,7 @@ class Points:
                 share = (b - none) / (everything - none) if everything != none else math.nan
         if not adds_up:
             paper["paper_B"] = math.nan
-        return Fit(rule, len(self), b, share, zero, slope, **paper, B_interval=of_b[0], p_zero_interval=of_zero[0],
+        return Fit(_name_of(rule), len(self), b, share, zero, slope, **paper, B_interval=of_b[0], p_zero_interval=of_zero[0],
                    dB_dp_interval=of_slope[0], over=self.over, degrees_of_freedom=of_b[1])
 
     def _b_at(self, share):
@@ -1509,6 +1637,10 @@ class Points:
         tops = np.zeros(len(bottoms))
         tops[layer] = table["y1"]
         base = bottoms[filled >= 0.5].min()
+        if _has_annuli(table):  # annuli_inside() of analysis/fit/cells_inside.cpp
+            last = np.flatnonzero(filled)[-1]
+            part = min(1, filled[last] / filled[last - 1]) if last > 0 and filled[last - 1] > 0 else 1
+            return base, bottoms[last] + part * (tops - bottoms)[last] - 4 * sizes[0]
         return base + 4 * sizes[0], base + (filled * (tops - bottoms)).sum() - 4 * sizes[0]
 
     def _stresses_of(self, table, rule):
@@ -1609,6 +1741,44 @@ class Points:
             error, degrees = _error_over_runs(parts, np.bincount(self.run[ok], self._b_weight[ok]))
         reach = _student(degrees) * error if degrees >= 0.5 else math.nan
         return (value - reach, value + reach), degrees
+
+
+def fit(source, rule="size", layer=None, window=None, stride=None, begin=None, end=None, **selection):
+    """The Fit by a rule to a run, to a table of contact sums, or to a list of both.
+
+        grseg.fit(run, "size", window=2.5, begin=10)
+        grseg.fit(run, lambda r_large, r_small: r_large**2 / (r_large**2 + r_small**2))
+        grseg.fit(grseg.read_table("sums.tsv"), lambda d_large, d_small: d_large / (d_large + d_small))
+
+    source       Run, Table, or a list of these
+    rule         name of a rule, as for `partial_stress`, or a function that returns the share of the stress of a mixed
+                 contact that its larger grain gets. The smaller grain gets the rest
+    layer, window, stride    for runs, as for `Run.contact_sums`: layer is text with a unit, or a number in m; window is in s
+    begin, end   times, s, between which windows are used
+    selection    other arguments of `Points`: component, heights, ...
+
+    A function has some of these arguments, under these names. They are arrays over the mixed contacts of a few frames; a
+    function returns a number for each, or one number for all. "Larger" is the grain of the larger species.
+
+    r_large, r_small [n]     radii of the two grains, m
+    d_large, d_small [n]     nominal diameters of their species, m
+    gap [n]                  distance of the two surfaces, m; negative if they overlap
+    force [n, D]             force on the larger grain from the smaller one, N
+    branch [n, D]            centre of the larger grain minus that of the smaller one, nearest image, m
+
+    A share may lie outside 0 to 1, but has to be finite. A table has no contacts, only sums over them: it needs a function of
+    d_large and d_small alone, numbers then, or to be made by `Run.contact_sums` with the same rule.
+    """
+    of_sums = {name: value for name, value in (("layer", layer), ("window", window), ("stride", stride)) if value is not None}
+    tables = []
+    for one in source if isinstance(source, (list, tuple)) else [source]:
+        if isinstance(one, Run):
+            one = one.contact_sums(begin=begin, end=end, rule=rule, **of_sums)
+        elif of_sums:
+            raise ValueError(f"{next(iter(of_sums))}: {one.name} is a table, which has its layers and windows; leave it out")
+        tables.append(one)
+    times = {name: value for name, value in (("begin", begin), ("end", end)) if value is not None}
+    return Points(tables, **times, **selection).fit(rule)
 
 
 # -------------------------------------------------------------------------------------- intervals

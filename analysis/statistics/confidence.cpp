@@ -85,8 +85,8 @@ std::string doubt_of_runs(const Eigen::VectorXd& weight)
   const double runs = effective_number(weight);
   if (runs > 3.5) return {};
   return fmt::format(
-      "{} runs, worth {:.3g} of equal weight, show {} how runs differ; more runs give a narrower "
-      "interval",
+      "{} runs, worth {:.3g} of equal weight, show {} how runs differ; more runs, of other seeds, "
+      "give a narrower interval",
       weight.size(), runs, runs < 1 + least_degrees ? "nothing of" : "little of");
 }
 

@@ -13,10 +13,11 @@ namespace {
 std::string keys_of(const ViewCell& cell, bool has_force)
 {
   return fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Origin="{} {} {}" pbc="{} F {}" )"
-                     "Properties=id:I:1:type:I:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:omega:R:3{}",
+                     "Properties=id:I:1:type:I:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:omega:R:3:"
+                     "masses:R:1:momenta:R:3{}",
                      cell.length(0), cell.length(1), cell.length(2), cell.low[0], cell.low[1],
                      cell.low[2], cell.periodic_x ? 'T' : 'F', cell.periodic_z ? 'T' : 'F',
-                     has_force ? ":force:R:3" : "");
+                     has_force ? ":forces:R:3" : "");
 }
 
 class ExtxyzWriter : public RunWriter {
@@ -46,13 +47,18 @@ class ExtxyzWriter : public RunWriter {
       if (!is_present(frame, g)) continue;
       const Vec3 x = in_space<D>(frame.position[g]), v = in_space<D>(frame.velocity[g]);
       const Vec3 spin = spin_in_space(frame.angular_velocity[g]);
-      fmt::format_to(end, "{} {} {} {} {} {} {} {} {} {} {} {} {}", grains_.id[g], species_[g] + 1,
-                     x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), grains_.radius[g], grains_.mass[g],
-                     spin.x(), spin.y(), spin.z());
-      if (has_force_) {
-        const Vec3 force = in_space<D>(frame.force[g]);
-        fmt::format_to(end, " {} {} {}", force.x(), force.y(), force.z());
-      }
+      const double mass = grains_.mass[g];
+      fmt::format_to(end, "{} {}", grains_.id[g], species_[g] + 1);
+      const auto add = [&](const Vec3& vector) {
+        fmt::format_to(end, " {} {} {}", vector.x(), vector.y(), vector.z());
+      };
+      add(x);
+      add(v);
+      fmt::format_to(end, " {} {}", grains_.radius[g], mass);
+      add(spin);
+      fmt::format_to(end, " {}", mass);
+      add(mass * v);
+      if (has_force_) add(in_space<D>(frame.force[g]));
       text.push_back('\n');
     }
     file_.write({text.data(), text.size()});

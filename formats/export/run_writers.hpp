@@ -49,7 +49,8 @@ std::unique_ptr<RunWriter> lammps_writer(const TrajectoryReader& run, const View
 
 /// Extended XYZ for OVITO and ASE. A frame is the number of present grains, a line of keys, and a
 /// row for each of these grains. Types are numbers (1 the smallest species, the last one the
-/// boundary), because ASE accepts only chemical symbols as species. Reals have the fewest digits
+/// boundary), because ASE accepts only chemical symbols as species. Columns have the names that both
+/// programs read: velo and mass (OVITO), masses and momenta (ASE). Reals have the fewest digits
 /// from which the same double is read; discs have z = 0. The format cannot store contacts.
 std::unique_ptr<RunWriter> extxyz_writer(const TrajectoryReader& run, const ViewCell& cell,
                                          const std::string& path, bool overwrite);

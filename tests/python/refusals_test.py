@@ -3,6 +3,7 @@
 the place and the remedy in one sentence.
 Usage: refusals_test.py SOURCE SYNTHETIC_RUN
 """
+import math
 import os
 import re
 import shutil
@@ -158,8 +159,10 @@ def what_is_not_there():
 
 def wrong_arguments():
     with grseg.Run(RUN) as run:
-        require("'4dX' is not a length: give metres, or a text such as 20mm, 4dS or 2dL", lambda: run.metres("4dX"),
+        require("'4dX' is not a length: give a number with a unit, as in 0.02m, 20mm, 4dS, 2dL", lambda: run.metres("4dX"),
                 ValueError)
+        require("'4' has no unit: 4dS, 4dL or 4m[?]", lambda: run.metres("4"), ValueError)
+        require("layer = 4 is 4 m, more than the 0.35 m of the cell: write \"4dS\" for", lambda: run.contact_sums(layer=4), ValueError)
         require("no window of 1.25 s is filled: the frames used are from 0 s to 0.2 s; choose a shorter",
                 run.contact_sums)
         require("a window of 0.01 s is shorter than the 0.05 s between the frames", lambda: run.windows(0.01), ValueError)
@@ -173,8 +176,28 @@ def wrong_arguments():
     for rule in ("sizes", "uniform", "uniform:2", "power:x", "half:1"):
         require(f"'{rule}' is not a rule: size, contact-point", lambda rule=rule: grseg.partial_stress(sums, rule),
                 ValueError)
+    require("three-grains-closed.h5: the rule mine asks for r_small of each contact, and the table has only sums over contacts: give the run",
+            lambda: grseg.partial_stress(sums, mine), ValueError)
+    require("window: .*three-grains-closed.h5 is a table, which has its layers and windows", lambda: grseg.fit(sums, window=2), ValueError)
     require(r"its column Mpower_\* was not made with power:3; make the table with --partition power:3",
             lambda: grseg.partial_stress(sums, "power:3"))
+
+
+def mine(r_small):
+    return r_small / 0.0025
+
+
+def wrong_rules():
+    with grseg.Run(RUN) as run:
+        for sentence, rule in (
+                ("rule <lambda> has the argument 'x'; grseg knows d_large, d_small, r_large, r_small, gap, force, branch", lambda x: x),
+                (r"rule <lambda> returns an array of shape \(3,\) for 4 contacts; it should return one number, or one for each",
+                 lambda gap: gap[1:]),
+                ("rule <lambda> returns nan for a contact; a share should be a finite number", lambda gap: gap * math.nan)):
+            require(sentence, lambda rule=rule: run.contact_sums(window=0.2, rule=rule), ValueError)
+        sums = run.contact_sums(window=0.2, rule=mine)
+    grseg.partial_stress(sums, mine)
+    require("the rule <lambda> asks for gap of each contact", lambda: grseg.partial_stress(sums, lambda gap: gap), ValueError)
 
 
 def wrong_tables():
@@ -211,4 +234,5 @@ with tempfile.TemporaryDirectory() as folder:
     grains_that_come_and_go()
     what_is_not_there()
     wrong_arguments()
+    wrong_rules()
     wrong_tables()

@@ -3,6 +3,7 @@
 values computed by hand.
 Usage: three_grains_test.py SOURCE
 """
+import dataclasses
 import math
 import os
 import sys
@@ -32,7 +33,8 @@ def the_head_says_what_was_written(run, version, finished):
     assert run.observables == ["translational_energy"]
     assert is_near(run.observable("translational_energy"), [0, 0.5, 1, 1.5])
     assert is_near(run.times, (np.arange(4) * 500 + 0.5) * 1e-4)
-    assert is_near([run.metres(text) for text in ("4dS", "2dL", "20mm", "2cm", "0.02", 0.02)], 0.02)
+    assert is_near([run.metres(text) for text in ("4dS", "2dL", "20mm", "2cm", "0.02m", 0.02)], 0.02)
+    assert run.metres("0") == 0
 
 
 def a_frame_holds_its_grains_and_contacts(run):
@@ -86,6 +88,29 @@ def rules_share_the_mixed_contact(run):
     assert not of_species.any() and is_near(total[0, 1, 1] * volume, 1.5e-6)
 
 
+def a_rule_of_ones_own_sees_the_contact_from_the_larger_grain(run):
+    """Radii 5 and 2.5 mm; force (0.1, -0.2) mN on the large grain, branch (0, -7.5) mm to it."""
+    seen = {}
+
+    def own(r_large, r_small, d_large, d_small, gap, force, branch, times=1e5):
+        seen.update(locals())
+        return times * (force * branch).sum(axis=1)
+    sums = run.contact_sums(window=0.2, rule=own)
+    expected = {"r_large": [0.005], "r_small": [0.0025], "d_large": [0.01], "d_small": [0.005], "gap": [0], "force": [[1e-4, -2e-4]],
+                "branch": [[0, -0.0075]]}
+    for name, values in expected.items():  # the same contact in each of four frames
+        assert is_near(seen[name], np.repeat(values, 4, axis=0)), name
+    yy = grseg.partial_stress(sums, own)[0][0, :, 1, 1] * 0.02 * 0.35
+    assert is_near(yy, [0.85 * 1.5e-6, 0.15 * 1.5e-6 + 1e-5 / 2])
+
+
+def a_table_takes_rules_of_nominal_diameters(run):
+    sums = run.contact_sums(window=0.2)
+    for rule, share in ((lambda d_large, d_small: d_large**2 / (d_large**2 + d_small**2), 4 / 5), (lambda: -0.25, -0.25)):
+        yy = grseg.partial_stress(sums, rule)[0][0, :, 1, 1] * 0.02 * 0.35
+        assert is_near(yy, [(1 - share) * 1.5e-6, share * 1.5e-6 + 1e-5 / 2]), share
+
+
 def fluctuations_are_about_the_mean_of_the_layer(run):
     """m = pi r^2: the large grain's velocity differs from the mean by 1/5 of the difference, the small grain's by 4/5."""
     kinetic = run.kinetic_sums(window=0.1, mean="layer")
@@ -127,9 +152,15 @@ def neutral_contacts_have_no_b_by_size():
         of_large = np.array([2 + 12 * p, 5 + 15 * p, 10 + 15 * p]) / 30
         assert is_near(fit.B, (of_large - phi).sum() / (phi * (1 - phi)).sum())
         assert is_near(points.b_of_p([p]), fit.B)
+        own = grseg.fit(points.tables[0], lambda d_large: p, heights="all")
+        assert own.B == fit.B and own.paper_s == fit.paper_s and own.rule == "<lambda>"
     # Of the total stress, 30, mixed contacts carry 12, 15 and 15.
     slope = (12 + 15 + 15) / 30 / (phi * (1 - phi)).sum()
-    assert np.allclose([points.fit().p_zero, points.fit().dB_dp], [2 / 3, slope], rtol=1e-14)
+    fit = points.fit()
+    assert np.allclose([fit.p_zero, fit.dB_dp], [2 / 3, slope], rtol=1e-14) and fit.doubt == ""
+    doubt_of = lambda *interval: dataclasses.replace(fit, p_zero_interval=interval).doubt
+    assert doubt_of(0.01, 0.99) == "" and doubt_of(-2.9, 3.8).startswith("the interval of p*, [-2.9, 3.8], reaches beyond 0 to 1")
+    assert doubt_of(1.1, 1.3).startswith("p* = 0.667 lies outside 0 to 1") and doubt_of(-0.1, 0.5) and doubt_of(0.5, 1.1)
 
 
 with grseg.Run(os.path.join(inputs, "three-grains-closed.h5")) as closed, \
@@ -141,6 +172,8 @@ with grseg.Run(os.path.join(inputs, "three-grains-closed.h5")) as closed, \
         frames_begin_at_a_time_and_end_before_one(one)
         sums_are_force_times_branch(one)
         rules_share_the_mixed_contact(one)
+        a_rule_of_ones_own_sees_the_contact_from_the_larger_grain(one)
+        a_table_takes_rules_of_nominal_diameters(one)
         fluctuations_are_about_the_mean_of_the_layer(one)
         a_table_becomes_a_data_frame(one)
 neutral_contacts_have_no_b_by_size()

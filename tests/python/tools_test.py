@@ -278,6 +278,51 @@ def check_hopper():
         check_kinetic_sums(run, {"window": 0.2})
 
 
+def by_power(r_large, r_small, power=3):
+    return r_large**power / (r_large**power + r_small**power)
+
+
+# Rules of grseg as functions of one's own.
+OWN_RULES = {
+    "size": lambda r_large, r_small: r_large / (r_large + r_small),
+    "contact-point": lambda r_large, r_small, gap: (r_large + gap / 2) / (r_large + r_small + gap),
+    "half": lambda: 0.5,
+    "power:3": by_power,
+}
+
+
+def check_own_rules(path, **how):
+    """Compares every number of a fit by a function with those by the name of the rule."""
+    with grseg.Run(path) as run:
+        for name, rule in OWN_RULES.items():
+            named, own = (vars(grseg.fit(run, choice, heights="all", **how)) for choice in (name, rule))
+            for quantity in named.keys() - {"rule", "over"}:
+                agree(f"{quantity} of {path} by {name} as a function", own[quantity], named[quantity], tolerance=1e-9)
+        agree(f"sum of forces on larger grains of {path}", *forces_on_larger_grains(run), scale=sum_of_forces(run))
+
+
+def sum_of_forces(run):
+    return sum(abs(frame.contacts.force).sum() for frame in run.frames())
+
+
+def forces_on_larger_grains(run):
+    """Sum over mixed contacts of the force on the larger grain and of branches to it, as a rule and as frames give them."""
+    by_rule, by_frames = np.zeros((2, run.dimension)), np.zeros((2, run.dimension))
+
+    def record(force, branch):
+        by_rule[:] += force.sum(axis=0), branch.sum(axis=0)
+        return 0
+    run.contact_sums(window="all", rule=record)
+    for window in run.windows("all"):
+        for number in window.frames:
+            contacts = run[number].contacts
+            a, b = contacts.kind_i, contacts.kind_j
+            mixed = contacts.pushing & (a != b) & (b < len(run.species))
+            sign = np.where(a > b, 1, -1)[mixed, None]
+            by_frames += (sign * contacts.force[mixed]).sum(axis=0), (sign * contacts.branch[mixed]).sum(axis=0)
+    return by_rule, by_frames
+
+
 def check_all_fits(sample):
     stress = ("--partition", "power:2", "--window", "1")
     run_tool("stress", sample, *stress, "--end", "10", "-o", "first.tsv")
@@ -294,6 +339,10 @@ def check_all_fits(sample):
     check_fits(["classes.tsv"], ["--pair", "c1,c3"], pair=("c3", "c1"))
     run_tool("stress", "synthetic-1.h5", "--partition", "power:2", "--window", "0.04", "--layer", "2dS", "-o", "spheres.tsv")
     check_fits(["spheres.tsv"], ["--heights", "all"], heights="all")
+    run_tool("sim", os.path.join(source, "sim", "scenes", "drum.ini"), "--drum-diameter", "30dS", "--duration", 1, "--accuracy", "draft",
+             "-o", "drum.h5")
+    run_tool("stress", "drum.h5", "--bins", "radius", "--layer", "2dS", "--window", "0.25", "--partition", "power:2", "-o", "drum.tsv")
+    check_fits(["drum.tsv"])
     check_kinetic_fit("kinetic.tsv")
     check_runs()
     make_tables_for_intervals(sample)
@@ -401,6 +450,8 @@ def main():
             check_hopper()
             check_run(sample, {"window": 5, "begin": 3.3, "end": 14}, {"layer": "1.5dS", "window": 2.5, "stride": 3})
             check_all_fits(sample)
+            check_own_rules(sample, window=2.5)
+            check_own_rules("spheres.h5", window=0.4, layer="3dS")
             check_beds(sample)
         except (Difference, grseg.Error) as error:
             sys.exit(str(error))

@@ -105,7 +105,9 @@ def check_extxyz():
         same(values[:, 8], grains["radius"], "radii")
         same(values[:, 9], grains["mass"], "masses")
         same(values[:, 12], grains["angular_velocity/value"][k], "spins")
-        same(values[:, 13:16], padded(grains["force/value"][k]), "forces")
+        same(values[:, 13], grains["mass"], "masses")
+        same(values[:, 14:17], padded(grains["mass"][:][:, None] * grains["velocity/value"][k].astype(float)), "momenta")
+        same(values[:, 17:20], padded(grains["force/value"][k]), "forces")
 
 
 def blocks_of(name):

@@ -300,5 +300,16 @@ TEST(FitData, BaseContactsCountAsFarAsTheChosenBaseSays)
   EXPECT_NEAR(fit(data, "size", {.base = BasePart::none}).value.paper_s, 1, 1e-14);
 }
 
+TEST(FitData, TablesOfOneBedShareARunOnlyIfTheyAreOfOneFlow)
+{
+  std::vector<Table> tables(4);
+  for (std::size_t k = 0; k < tables.size(); ++k) tables[k].name = std::string(1, "abcd"[k]);
+  std::vector<FitTable> read(4);
+  for (std::size_t k = 0; k < read.size(); ++k) read[k].table = &tables[k];
+  read[1].flow = 1;
+  read[3].run = 1;
+  EXPECT_EQ(tables_of_shared_runs(read), (std::vector<std::vector<std::string>>{{"a", "c"}}));
+}
+
 }  // namespace
 }  // namespace grseg

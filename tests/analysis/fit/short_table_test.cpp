@@ -107,6 +107,42 @@ TEST(ShortTable, StatesADoubtOnceWithAllRulesThatItIsAbout)
   EXPECT_EQ(text.find("few windows", first + 1), std::string::npos) << text;
 }
 
+TEST(ShortTable, SaysOverWhatItsIntervalsAreAndNothingOfOthers)
+{
+  auto of_runs = report();
+  of_runs.flows = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 1}}};
+  of_runs.shares = {1};
+  for (auto& fit : of_runs.rules) fit.over = Population::runs;
+  for (const auto over : {Population::windows, Population::runs, Population::compositions})
+    of_runs.rules[0].at(over) = {0.03, 0.02, 0.04};
+  const auto text = short_table(of_runs);
+  EXPECT_NE(text.find("\nintervals over runs: B of one flow"), std::string::npos) << text;
+  for (const char* other : {"over windows", "over compositions"})
+    EXPECT_EQ(text.find(other), std::string::npos) << text;
+}
+
+/// A report whose p* has this interval.
+FitReport with_zero(double low, double high)
+{
+  auto of = report();
+  for (auto& fit : of.rules) fit.line.p_zero = {(low + high) / 2, {(high - low) / 2 / 3.182446, 3}};
+  return of;
+}
+
+TEST(ShortTable, DoubtsAZeroWhoseIntervalLeavesTheSharesThatRulesHave)
+{
+  const auto doubts_of = [](double low, double high) { return doubts(with_zero(low, high)); };
+  EXPECT_TRUE(doubts_of(0.01, 0.99).empty());
+  const std::string leaves =
+      "the interval of p*, [-2.9, 3.8], reaches beyond 0 to 1, where the "
+      "shares of all rules lie: these data do not determine p*";
+  EXPECT_EQ(doubts_of(-2.9, 3.8), std::vector{leaves});
+  EXPECT_EQ(doubts_of(0.5, 1.2).size(), 1U);
+  EXPECT_EQ(doubts_of(-0.1, 0.4).size(), 1U);
+  for (const auto& [low, high] : {std::pair{1.1, 1.3}, {-0.4, -0.2}})
+    EXPECT_NE(doubts_of(low, high)[0].find("lies outside 0 to 1: no rule"), std::string::npos);
+}
+
 TEST(ShortTable, KineticStressHasNoRuleAndNoZero)
 {
   auto kinetic = report();
@@ -114,6 +150,16 @@ TEST(ShortTable, KineticStressHasNoRuleAndNoZero)
   kinetic.rules = {fit({}, {-0.3731, -0.38, -0.366}, no_number)};
   const auto text = short_table(kinetic);
   EXPECT_TRUE(text.ends_with("kinetic  -0.373 [-0.380, -0.366]      -  -\n")) << text;
+}
+
+TEST(ShortTable, SaysOverWhatTheIntervalsOfAFlowAndOfAllFlowsAre)
+{
+  auto of_two = report();
+  of_two.flows.resize(2);
+  of_two.rules.resize(2);
+  of_two.rules[0].flow = 0;
+  of_two.rules[1].over = Population::flows;
+  expect_line(of_two, "intervals of one flow are over windows, of all over flows");
 }
 
 TEST(ShortTable, CountsTheTablesOfEachFlow)

@@ -126,7 +126,6 @@ TEST(RunsOfTables, AreNumberedInTheOrderOfTheirTables)
       table_of("c", source_of("3", {sim, longer}, bed + ", seed 1"), {{2, 3}})};
   const auto runs = find_runs(tables);
   EXPECT_EQ(runs.run, (std::vector<std::size_t>{0, 1, 0}));
-  EXPECT_EQ(runs.shared(tables), (std::vector<std::vector<std::string>>{{"a", "c"}}));
   EXPECT_EQ(runs.doubt(tables), "");
 }
 

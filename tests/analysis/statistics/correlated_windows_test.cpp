@@ -240,9 +240,10 @@ TEST(DoubtOfWindows, IsVoicedWhereTheyAreFew)
 
 TEST(DoubtOfRuns, IsVoicedWhereRunsAreTooFew)
 {
-  EXPECT_EQ(doubt_of_runs(Eigen::Vector2d(48, 48)),
-            "2 runs, worth 2 of equal weight, show little of how runs differ; more runs give a "
-            "narrower interval");
+  EXPECT_EQ(
+      doubt_of_runs(Eigen::Vector2d(48, 48)),
+      "2 runs, worth 2 of equal weight, show little of how runs differ; more runs, of other seeds, give a "
+      "narrower interval");
   EXPECT_EQ(doubt_of_runs(Eigen::Vector4d::Ones()), "");
   EXPECT_DOUBLE_EQ(effective_number(Eigen::Vector3d(2, 2, 1)), 25. / 9);
 }

@@ -76,15 +76,18 @@ TEST_F(ExportOfSpheres, HasACellWithWallsAcrossWhereTheRunHas)
   EXPECT_EQ(lines_of(content(folder / "run.dump"))[8], "ITEM: BOX BOUNDS pp ff ff");
 }
 
-// Columns id, type, position, velocity, radius, mass, angular velocity, force; types 3, 2, 1 and 4.
+// Columns id, type, position, velocity, radius, mass, angular velocity, mass, momentum, force; types
+// 3, 2, 1 and 4.
 TEST_F(ExportOfSpheres, HasEveryComponentInExtendedXyz)
 {
   const TrajectoryReader run(at("run.h5"));
   write(*extxyz_writer(run, view_cell(run, 0), at("run.xyz"), false), run);
   const auto lines = lines_of(content(folder / "run.xyz"));
-  EXPECT_EQ(lines[2], fmt::format("11 3 0.002 0.008 0.01 0.11 0.12 0.13 0.006 {} 1 2 3 1e-06 2e-06 "
-                                  "3e-06",
-                                  run.grains().mass[0]));
+  const double mass = run.grains().mass[0];
+  EXPECT_EQ(lines[2],
+            fmt::format("11 3 0.002 0.008 0.01 0.11 0.12 0.13 0.006 {0} 1 2 3 {0} {1} {2} {3} "
+                        "1e-06 2e-06 3e-06",
+                        mass, mass * 0.11, mass * 0.12, mass * 0.13));
   EXPECT_EQ(lines[5].substr(0, 5), "20 4 ");
 }
 
