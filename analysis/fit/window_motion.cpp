@@ -58,11 +58,6 @@ struct LayersOfRun {
   }
 };
 
-bool has_annuli(const Table& table)
-{
-  return header_or(table, "bins", "").starts_with("radius");
-}
-
 /// Density of each species, kg/m^2 or kg/m^3; nothing if the table does not tell.
 std::optional<std::vector<double>> densities_of(const FitTable& table)
 {
