@@ -200,6 +200,18 @@ TEST(Scene, APlateIsAsHeavyAs256LayersOfSmallGrainsAtMost)
   EXPECT_EQ(plate(257), "plate-mass");
 }
 
+// Spheres are of glass. A plate presses them 2500 times as much, so that the inertial number is that of
+// the discs.
+TEST(Scene, SpheresHaveTheDensityOfGlassUnlessTheyHaveAnother)
+{
+  EXPECT_EQ(scene_from({}).density, 1);
+  const std::vector<std::string> spheres{"--dimension", "3", "--geometry", "shear"};
+  EXPECT_EQ(scene_from(spheres).density, 2500);
+  EXPECT_EQ(scene_from(spheres).plate_pressure, 5000);
+  EXPECT_EQ(scene_from({"--dimension", "3", "--density", "1"}).density, 1);
+  EXPECT_DOUBLE_EQ(scene_from(spheres).gravity, scene_from({"--geometry", "shear"}).gravity);
+}
+
 TEST(Scene, NearlyElasticGrainsReboundInTheStepInWhichTheyMeet)
 {
   EXPECT_EQ(scene_from({"--restitution", "0.9"}).law, ContactLaw::speculative);
