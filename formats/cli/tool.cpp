@@ -80,6 +80,8 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
     const auto& option = unknown.get_option_name();
     std::vector<std::string> names;
     for (const auto& known : options.options()) names.push_back("--" + known->long_name());
+    const auto absent = info.absent != nullptr ? info.absent(option) : "";
+    if (!absent.empty()) throw UsageError(fmt::format("unknown option {}: {}", option, absent));
     const auto suggestion = nearest(option, names);
     throw UsageError(
         fmt::format("unknown option {}{}; --help lists all", option,

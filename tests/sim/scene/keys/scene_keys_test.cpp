@@ -398,6 +398,23 @@ TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLineAndTheNearestKnownOne)
             path + ":3: unknown key 'frction', did you mean 'friction'?");
 }
 
+TEST_F(SceneFile, AnEffectThatNoSceneHasIsAnsweredWithWhatThereIs)
+{
+  EXPECT_EQ(complaint("slope = 23\ncohesion = 1\n"),
+            path +
+                ":2: unknown key 'cohesion': in grseg-sim contacts do not attract; they have "
+                "friction and restitution; docs/guide/limits.md names programs with more");
+  EXPECT_NE(absent_effect("rolling_friction").find("do not resist rolling"), std::string::npos);
+  EXPECT_NE(absent_effect("species").find("size-ratio, phi-large"), std::string::npos);
+  for (const auto& key : scene_keys()) EXPECT_EQ(absent_effect(key.name), "") << key.name;
+}
+
+TEST_F(SceneFile, ATableIsNamedAndNotRead)
+{
+  EXPECT_EQ(complaint("# program: grseg-micro 1.0.0\na\n1\n"),
+            path + ": is a table of grseg-micro 1.0.0, not a scene file: grseg-derive reads it");
+}
+
 TEST_F(SceneFile, ALengthWithoutAUnitIsNamedWithItsLine)
 {
   EXPECT_EQ(complaint("# a chute\ndepth = 60\n"),
