@@ -121,7 +121,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   const auto presets = help_of(info.presets);
   if (!info.presets.empty())
     all.add_options()("preset", word_option(nullptr, words_of(preset_names)), presets.c_str());
-  all.add_options()("version", "print the version and exit");
+  all.add_options()("version", "print the version, and where to report faults, and exit");
   all.add_options()("cite", "print what to cite, as BibTeX, and exit");
   all.add_options()("completion", word_option(nullptr, shells()),
                     "print a script that lets bash or zsh complete this command, and exit");
@@ -135,7 +135,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     } else if (values.count("completion") > 0) {
       std::cout << completion_script(values["completion"].as<std::string>(), info.name, all);
     } else if (values.count("version") > 0) {
-      std::cout << info.name << ' ' << version_with_hash() << '\n';
+      std::cout << info.name << ' ' << version_with_hash() << "\n\n" << how_to_report << '\n';
     } else {
       body(values);
     }
