@@ -11,9 +11,8 @@ fail() {
 }
 cmake --install "$build" --prefix "$folder/grseg" >"$folder/installed.log"
 mkdir "$folder/tools"
-for tool in awk bash basename cat cmp env expr grep make mkdir mv printf python3 rm sed sh sha256sum sort wc; do
-  ln -s "$(type -P $tool)" "$folder/tools/$tool"
-done
+ln -s /usr/bin/* "$folder/tools"
+rm -f "$folder"/tools/gnuplot* "$folder/tools/srun"
 printf '%s\n' '#!/bin/sh' 'while [ "${1#--}" != "$1" ]; do shift; done' 'exec "$@"' >"$folder/tools/srun"
 chmod +x "$folder/tools/srun"
 printf '%s\n' "duration = 4" "depth = 14dS" "length = 20dS" "accuracy = draft" >"$folder/chute.ini"
