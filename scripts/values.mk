@@ -3,7 +3,9 @@
 
 # HERE: folder where make was called, unless another make sets it. BIN: folder of the programs.
 HERE ?= $(or $(value PWD),$(CURDIR))
-BIN ?= $(dir $(abspath $(lastword $(MAKEFILE_LIST))))../build/bin
+of_scripts := $(dir $(abspath $(lastword $(MAKEFILE_LIST))))
+# The programs of a clone, or those installed with these scripts in share/grseg/scripts.
+BIN ?= $(firstword $(wildcard $(of_scripts)../build/bin $(of_scripts)../../../bin) $(of_scripts)../build/bin)
 
 # help prints the comment at the top of the Makefile. There is no default goal.
 .PHONY: help FORCE

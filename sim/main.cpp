@@ -111,7 +111,9 @@ int main(int argc, char** argv)
       "  grseg-sim chute.ini --slope 10 --slope-rate 2.5 --duration 8 -o steeper.h5\n"
       "  grseg-sim chute.ini --checkpoint run.chk --continue -o run.h5    start, or continue after an interruption\n"
       "  grseg-sim --restart run.chk --duration 300 -o more.h5\n"
-      "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n"};
+      "  grseg-sim --restart run.chk --perturb 1e-6 --seed-perturbation 2 -o twin.h5\n",
+      {},
+      absent_effect};
   RunOptions run;
   po::options_description options("Options");
   add_run_options(options, run);

@@ -360,7 +360,11 @@ std::size_t find_column(const Table& table, const std::string& name, const std::
 {
   const auto plain = without_unit(name);
   if (!table.has_column(plain))
-    throw FormatError(fmt::format("{}: no column '{}'; {}", table.name, plain, remedy));
+    throw FormatError(fmt::format(
+        "{}: {}no column '{}'; {}", table.name,
+        table.made_by_hand() ? ""
+                             : fmt::format("a table of {} has ", header_or(table, "program", "")),
+        plain, remedy));
   const auto column = table.column(plain);
   const auto& found = table.columns[column];
   if (found != name && !(table.made_by_hand() && found == plain))

@@ -18,18 +18,23 @@ namespace {
 // Share of the background that is mixed into grains under lines, so that lines stand out.
 constexpr double pale_species = 0.62, pale_field = 0.45;
 
-/// Number of decimals with which the times of the pictures differ; for a single picture, the number with
-/// which the times of neighbouring frames differ.
+/// Number of decimals that tell the times of the pictures from times of neighbouring frames: the
+/// least with which all are off by less than a hundredth of the mean distance of frames.
 int decimals_of(const TrajectoryReader& run, const std::vector<std::size_t>& frames)
 {
+  constexpr int most = 6;
   const auto& times = run.times();
-  double between = times.back() - times.front();
-  if (frames.size() < 2) between /= static_cast<double>(times.size() - 1);
-  for (std::size_t k = 1; k < frames.size(); ++k)
-    if (const double apart = std::abs(times[frames[k]] - times[frames[k - 1]]); apart > 0)
-      between = std::min(between, apart);
-  if (!(between > 0)) return 2;
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(between) - 0.01)), 0, 6);
+  const double between =
+      times.size() > 1 ? (times.back() - times.front()) / static_cast<double>(times.size() - 1) : 1;
+  for (int decimals = 0; decimals < most; ++decimals) {
+    const double unit = std::pow(10, -decimals);
+    const bool all = std::ranges::all_of(frames, [&](std::size_t frame) {
+      const double time = times[frame];
+      return std::abs(time - std::round(time / unit) * unit) < 0.01 * between;
+    });
+    if (all) return decimals;
+  }
+  return most;
 }
 
 /// Region shown by default: the whole period along a periodic axis; along another axis as far as grains

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -126,6 +127,24 @@ std::vector<std::size_t> PictureOptions::frames_at(const TrajectoryReader& run) 
   if (frames.size() > 100)
     throw UsageError(fmt::format("--at: {} panels; at most 100 fit", frames.size()));
   return frames;
+}
+
+std::string PictureOptions::other_times(const TrajectoryReader& run) const
+{
+  const auto& times = run.times();
+  const double tolerance =
+      0.01 * (times.back() - times.front()) / static_cast<double>(times.size());
+  std::string text;
+  for (const auto& list : at) {
+    std::istringstream words(list);
+    for (std::string word; std::getline(words, word, ',');) {
+      const auto asked = parse_number(word);
+      const double shown = times[frame_at(run, word)];
+      if (asked && std::abs(shown - *asked) > tolerance)
+        text += fmt::format("{}{:.6g} s for --at {}", text.empty() ? "" : ", ", shown, word);
+    }
+  }
+  return text;
 }
 
 PageWidth parse_width(const std::string& text)

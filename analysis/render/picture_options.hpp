@@ -26,6 +26,8 @@ struct PictureOptions {
   /// Numbers of the frames nearest to the times of --at; by default the last frame. Throws UsageError if a
   /// time lies outside of the run.
   std::vector<std::size_t> frames_at(const TrajectoryReader& run) const;
+  /// Times of the frames shown that differ from those asked for: "11.95 s for --at 11.97"; "" if none.
+  std::string other_times(const TrajectoryReader& run) const;
 };
 
 /// Page width and sizes that follow from the option --width.

@@ -6,6 +6,7 @@
 #include "formats/cli/interruption.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
 
@@ -48,6 +49,10 @@ void make_picture(const RenderSource& source)
 {
   const auto& options = source.settings.picture;
   const auto frames = options.frames_at(source.run);
+  const auto others = options.other_times(source.run);
+  if (!others.empty() && !source.settings.quiet)
+    tell(fmt::format("{}: shows the nearest frames: {}\n", source.settings.program,
+                     printable(others)));
   const Picture<D> picture(source.run, source.grains, frames, frames.size(),
                            options.settings(source.run));
   std::vector<Drawing> drawings;

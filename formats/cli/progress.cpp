@@ -30,14 +30,15 @@ std::string bar(double done, double total)
 
 std::string progress_text(double done, const Work& work, double seconds)
 {
+  const bool has_total = work.total > 0 && done <= work.total;
   auto text = fmt::format("{:.{}f}", done, work.digits);
-  if (work.total > 0) text += fmt::format(" of {:.{}f}", work.total, work.digits);
+  if (has_total) text += fmt::format(" of {:.{}f}", work.total, work.digits);
   text += " " + work.things;
   if (!(done > work.from) || !(seconds > 0)) return text;
   const double rate = (done - work.from) / seconds;
   text += fmt::format(", {:.{}f}/s", rate, rate < 1 ? 2 : rate < 10 ? 1 : 0);
-  if (!(work.total > 0)) return text;
-  const auto left = std::lround(std::max(0.0, work.total - done) / rate);
+  if (!has_total) return text;
+  const auto left = std::lround((work.total - done) / rate);
   return fmt::format("{}, {}:{:02} left", text, left / 60, left % 60);
 }
 
@@ -77,7 +78,7 @@ void ProgressBar::show(double done)
   const auto text = progress_text(done, work_, passed.count());
   if (where_ == Where::terminal) {
     next_ = passed.count() + between_on_terminal;
-    say((work_.total > 0 ? bar(done, work_.total) : "") + text);
+    say((work_.total > 0 && done <= work_.total ? bar(done, work_.total) : "") + text);
   } else {
     next_ = passed.count() + between_in_file;
     tell(fmt::format("{}: {}\n", program_, text));

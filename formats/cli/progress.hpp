@@ -18,7 +18,7 @@ struct Work {
 
 /// "123 of 400 frames, 35/s, 0:08 left", where `seconds` is the time since the work began. Rate and
 /// time left are omitted if nothing is done yet or no time has passed; "of 400" and the time left
-/// are omitted if the total is unknown.
+/// are omitted if the total is unknown, or only an estimate that `done` has passed.
 std::string progress_text(double done, const Work& work, double seconds);
 
 /// Writes to standard error and ignores failures: a closed terminal, or a log on a full disk, must

@@ -3,6 +3,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/core/text.hpp"
+#include "formats/trajectory/file_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -69,8 +70,13 @@ class TableParser {
   void require_text() const
   {
     if (text_.empty()) fail("is empty, not a table");
+    if (const auto wrong = kind_of_start(text_).instead_of("a table", ""); !wrong.empty())
+      fail(wrong);
     if (text_.starts_with("\x89HDF"))
-      fail("is an HDF5 file, not a table; if it is a run, make its table with grseg-stress");
+      fail(kind_of_file(table_.name)
+               .instead_of("a table",
+                           "is an HDF5 file, not a table; if it is a run, make its "
+                           "table with grseg-stress"));
     if (text_.starts_with("\xef\xbb\xbf"))
       fail("begins with a byte order mark; save it as UTF-8 without BOM");
     if (text_.find("\r\n") != std::string::npos)

@@ -81,6 +81,8 @@ po::variables_map parse(int argc, char** argv, const ToolInfo& info,
     const auto& option = unknown.get_option_name();
     std::vector<std::string> names;
     for (const auto& known : options.options()) names.push_back("--" + known->long_name());
+    const auto absent = info.absent != nullptr ? info.absent(option) : "";
+    if (!absent.empty()) throw UsageError(fmt::format("unknown option {}: {}", option, absent));
     const auto suggestion = nearest(option, names);
     throw UsageError(
         fmt::format("unknown option {}{}; --help lists all", option,
@@ -123,7 +125,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
   const auto columns = columns_text(info.name);
   if (!columns.empty())
     all.add_options()("columns", "print the meaning of all columns of the tool's tables, and exit");
-  all.add_options()("version", "print the version and exit");
+  all.add_options()("version", "print the version, and where to report faults, and exit");
   all.add_options()("cite", "print what to cite, as BibTeX, and exit");
   all.add_options()("completion", word_option(nullptr, shells()),
                     "print a script that lets bash or zsh complete this command, and exit");
@@ -139,7 +141,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     } else if (values.count("completion") > 0) {
       std::cout << completion_script(values["completion"].as<std::string>(), info.name, all);
     } else if (values.count("version") > 0) {
-      std::cout << info.name << ' ' << version_with_hash() << '\n';
+      std::cout << info.name << ' ' << version_with_hash() << "\n\n" << how_to_report << '\n';
     } else {
       body(values);
     }

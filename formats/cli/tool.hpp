@@ -28,6 +28,8 @@ struct ToolInfo {
   const char* usage;                           // command line: "grseg-stress run.h5 [options]"
   const char* examples;                        // lines that --help shows before the options
   std::span<const PresetOption> presets = {};  // options that presets set; none: no --preset
+  // Answer to an unknown option that people may expect; "" if there is none.
+  std::string (*absent)(std::string option) = nullptr;
 };
 
 /// Main function of every tool. Parses the command line (for an unknown option the message suggests

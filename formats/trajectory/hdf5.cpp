@@ -3,6 +3,7 @@
 
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/trajectory/file_kind.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -70,8 +71,9 @@ std::string why_it_does_not_open(const std::string& path)
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (file >= 0) close(file);
-  return locked ? "is being written by a run; wait until the run has ended, or read a copy"
-                : "is not an HDF5 file, or is truncated or damaged";
+  if (locked) return "is being written by a run; wait until the run has ended, or read a copy";
+  return kind_of_file(path).instead_of("a run (HDF5)",
+                                       "is not an HDF5 file, or is truncated or damaged");
 }
 
 /// The product of two numbers; the largest number if the product overflows.

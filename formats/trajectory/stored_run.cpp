@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/errors.hpp"
 #include "formats/core/text.hpp"
+#include "formats/trajectory/file_kind.hpp"
 #include "formats/trajectory/hdf5_attributes.hpp"
 #include "formats/trajectory/layout.hpp"
 
@@ -78,7 +79,8 @@ class HeadReader {
   {
     auto version = attribute(module, "version");
     if (version.size() != 2)
-      run_.fail(fmt::format("{} has no version: not a run of grseg, or damaged", module));
+      run_.fail(kind_of_file(run_.path).instead_of(
+          "a run", fmt::format("{} has no version: not a run of grseg, or damaged", module)));
     return version;
   }
 

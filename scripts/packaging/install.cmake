@@ -4,7 +4,16 @@ include(GNUInstallDirs)
 set(GRSEG_PROGRAMS grseg-sim ${GRSEG_FORMAT_TOOLS} ${GRSEG_TOOLS})
 install(TARGETS ${GRSEG_PROGRAMS} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/sim/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/grseg)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff TYPE DOC)
+file(READ ${PROJECT_SOURCE_DIR}/CITATION.cff citation)
+file(WRITE ${PROJECT_BINARY_DIR}/CITATION.cff "${citation}${GRSEG_REPOSITORY_LINE}")
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_BINARY_DIR}/CITATION.cff TYPE DOC)
+# Sweeps, job arrays of Slurm, reanalysis (docs/guide/campaign.md).
+set(scripts ${CMAKE_INSTALL_DATADIR}/grseg/scripts)
+foreach(file Makefile values.mk as-job shared.py sweep/Makefile sweep/plan sweep/gather sweep/index.html
+             reproduce/array.sbatch reproduce/run.mk reproduce/campaign/__main__.py reproduce/campaign/run.py figures/b-of-p.gp)
+  cmake_path(GET file PARENT_PATH folder)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/${file} DESTINATION ${scripts}/${folder})
+endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/formats/README.md TYPE DOC RENAME file-format.md)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE TYPE DOC RENAME copyright)
 
@@ -21,6 +30,11 @@ function(grseg_printed file program)
 endfunction()
 
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man ${PROJECT_BINARY_DIR}/completions/bash ${PROJECT_BINARY_DIR}/completions/zsh)
+# What the manual pages say besides --help.
+list(TRANSFORM GRSEG_PROGRAMS REPLACE "(.+)" ".BR \\1 (1)," OUTPUT_VARIABLE see_also)
+list(JOIN see_also "\n" see_also)
+string(REGEX REPLACE ",$" "" see_also "${see_also}")
+file(CONFIGURE OUTPUT man/sections.txt CONTENT "[BUGS]\n@GRSEG_HOW_TO_REPORT@\n\n[SEE ALSO]\n@see_also@\n" @ONLY)
 foreach(program ${GRSEG_PROGRAMS})
   grseg_printed(${PROJECT_BINARY_DIR}/completions/bash/${program} ${program} --completion bash)
   grseg_printed(${PROJECT_BINARY_DIR}/completions/zsh/_${program} ${program} --completion zsh)
@@ -28,8 +42,10 @@ foreach(program ${GRSEG_PROGRAMS})
     set(page ${PROJECT_BINARY_DIR}/man/${program}.1)
     add_custom_command(
       OUTPUT ${page}
-      COMMAND ${PROJECT_SOURCE_DIR}/scripts/packaging/manual ${HELP2MAN} $<TARGET_FILE:${program}> ${page}
-      DEPENDS ${program} ${PROJECT_SOURCE_DIR}/scripts/packaging/manual
+      COMMAND
+        ${PROJECT_SOURCE_DIR}/scripts/packaging/manual ${HELP2MAN} $<TARGET_FILE:${program}> ${page}
+        ${PROJECT_BINARY_DIR}/man/sections.txt
+      DEPENDS ${program} ${PROJECT_SOURCE_DIR}/scripts/packaging/manual ${PROJECT_BINARY_DIR}/man/sections.txt
       VERBATIM)
     list(APPEND GRSEG_PRINTED ${page})
   endif()

@@ -236,11 +236,16 @@ def hopper_shape(dice, keys, ratio, area):
     return area, depth
 
 
+def usual_density(keys):
+    """The default of grseg-sim."""
+    return 2500 if dimension_of(keys) == 3 else 1
+
+
 def add_units(dice, keys, depth):
     """Draws d_S, density and gravity: usually as in a laboratory, otherwise of any order of magnitude."""
     any_size = dice.chance(0.2)
     small = dice.log(1e-7, 1e4) if any_size else 0.005
-    density = dice.log(1e-6, 1e6) if any_size else 1
+    density = dice.log(1e-6, 1e6) if any_size else usual_density(keys)
     gravity = dice.log(1e-6, 1e6) if any_size else 9.8
     if keys["geometry"] == "shear":
         pressure = float(number(gravity * density * small * depth * dice.log(0.01, 100)))
@@ -302,7 +307,7 @@ def add_plate(dice, keys, units, depth):
     keys["plate-speed"] = number(dice.pick(-1, 1, 1, 0) * dice.log(0.01, 30) * units.speed)
     if dice.chance(0.5):
         volume = length_of(keys, "length") * depth * (length_of(keys, "width") if dimension_of(keys) == 3 else 1)
-        density = float(keys.get("density", 1)) * units.small ** dimension_of(keys)
+        density = float(keys.get("density", usual_density(keys))) * units.small ** dimension_of(keys)
         keys["plate-mass"] = number(dice.log(0.03, 30) * density * volume)
 
 

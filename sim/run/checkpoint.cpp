@@ -4,6 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/trajectory/digest.hpp"
+#include "formats/trajectory/file_kind.hpp"
 #include "formats/trajectory/hdf5.hpp"
 #include "sim/run/checkpoint_entries.hpp"
 #include "sim/run/run_files.hpp"
@@ -157,7 +158,10 @@ File open_checkpoint(const std::string& path)
   try {
     return open_for_reading(path);
   } catch (const FormatError&) {
-    throw FormatError(fmt::format("{}: is not a checkpoint, or is truncated or damaged", path));
+    throw FormatError(
+        fmt::format("{}: {}", path,
+                    kind_of_file(path).instead_of(
+                        "a checkpoint", "is not a checkpoint, or is truncated or damaged")));
   }
 }
 
@@ -168,7 +172,8 @@ AnyCheckpoint read_parts(const std::string& path)
   };
   const auto file = open_checkpoint(path);
   if (!exists(file, "/version") || !exists(file, "/state"))
-    fail("is not a checkpoint of grseg-sim; name the file that --checkpoint wrote");
+    fail(kind_of_file(path).instead_of(
+        "a checkpoint", "is not a checkpoint of grseg-sim; name the file that --checkpoint wrote"));
   const Reader read{file, path};
   std::int32_t version = 0;
   read("/version", version);

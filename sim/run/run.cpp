@@ -177,16 +177,60 @@ void listen()
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+/// Shows how far a deposition is, and ends it on a signal.
+class DepositionProgress {
+ public:
+  /// `purpose`: "" or what the deposition is for, such as ", repeated for --keep-deposition".
+  DepositionProgress(const Scene& scene, const RunOptions& options, std::string purpose)
+      : total_(expected_time_to_rest(scene)),
+        purpose_(std::move(purpose)),
+        bar_(program, work(), options.quiet)
+  {
+    bar_.say("depositing the bed" + purpose_);
+  }
+
+  /// Called after each step. The time begins at 0 in each attempt; it is negative while the
+  /// accepted one is recorded.
+  void step_to(double time)
+  {
+    if (interrupted()) throw interruption("interrupted during the deposition of the bed");
+    if (time <= 0) return;
+    if (time < last_) {
+      ++attempt_;
+      bar_.begin(work());
+    }
+    last_ = time;
+    bar_.show(time);
+  }
+
+ private:
+  Work work() const
+  {
+    return {.things = fmt::format("s of deposition{}{}", purpose_,
+                                  attempt_ == 1 ? "" : fmt::format(", attempt {}", attempt_)),
+            .total = total_,
+            .digits = 2};
+  }
+
+  double total_, last_ = 0;
+  int attempt_ = 1;  // at a bed of the depth asked for
+  std::string purpose_;
+  ProgressBar bar_;
+};
+
 template <int D>
-void record_deposition(const Scene& scene, TrajectoryWriter& writer)
+void record_deposition(const Scene& scene, const RunOptions& options, TrajectoryWriter& writer)
 {
+  DepositionProgress progress(scene, options, " for --keep-deposition");
   Recorder recorder(writer, scene.small_diameter);
   const auto record = [&](const StepReport& report, const Simulation<D>& now,
                           const Frame<D>* frame) {
     recorder.add(report);
     if (frame != nullptr) recorder.write(*frame, now);
   };
-  deposit<D>(scene, {.each_step = {}, .slowed = {}, .record = record});
+  deposit<D>(
+      scene,
+      {.each_step = [&](double time) { progress.step_to(time); }, .slowed = {}, .record = record});
 }
 
 /// Prints the expected cost of the run from `begin`, s, on. Throws UsageError if it is too large.
@@ -235,14 +279,9 @@ template <int D>
 Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options,
                               DepositionRemarks& remarks)
 {
-  ProgressBar progress(
-      program,
-      {.things = "s of deposition", .total = expected_time_to_rest(scene), .from = 0, .digits = 2},
-      options.quiet);
-  progress.say("depositing the bed");
+  DepositionProgress progress(scene, options, "");
   const auto step = [&](double time) {
-    if (interrupted()) throw interruption("interrupted during the deposition of the bed");
-    progress.show(time);
+    progress.step_to(time);
     remarks.step_to(time);
   };
   const auto slowed = [&](double time) {
@@ -277,7 +316,7 @@ void simulate_in(const Scene& scene, const RunOptions& options)
              {},
              bed_height(deposited, scene.geometry->boundaries(scene).top),
              options.command_line};
-  if (scene.keep_deposition) record_deposition<D>(scene, run.writer);
+  if (scene.keep_deposition) record_deposition<D>(scene, options, run.writer);
   finish(scene, options, run);
   if (!options.quiet) tell(remarks.text());
 }

@@ -74,13 +74,13 @@ std::string solver_in_words(const StepTotals& t, const Scene& scene)
 
 std::string stiffness_in_words(const NumericalStiffness& s)
 {
-  const auto remedy = fmt::format(
-      "; grains count as rigid above {:.0e}: choose --step {:.2g} or "
+  const auto enough = fmt::format(
+      ": enough for B and velocities; for sound and stiffness, {:.0e} by --step {:.2g} or "
       "--min-sweeps {:.0f}",
       rigid, s.advised_step, std::ceil(s.advised_sweeps));
   return fmt::format(
       "k/P = {:.1e}, k the stiffness of elastic grains that yield as much, P the base pressure{}",
-      s.rigidity, s.rigidity < rigid ? remedy : "");
+      s.rigidity, s.rigidity < rigid ? enough : ": as rigid grains");
 }
 
 std::string line(const char* title, const std::string& text)
@@ -287,7 +287,8 @@ std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grain
                            s.totals.largest_overlap / scene.small_diameter));
   text += line("stiffness", stiffness_in_words(s.stiffness));
   const auto left_out = effects_left_out(scene);
-  if (!left_out.empty()) text += line("left out", left_out);
+  if (!left_out.empty())
+    text += line("speed", "computed without what this scene does not need: " + left_out);
   return text + height_in_words(s.deposited_height, scene) + doubts(s.totals, scene, grains);
 }
 

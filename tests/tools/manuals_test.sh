@@ -27,6 +27,10 @@ for page in man/man1/*.1; do
   else
     named=$(sed -n '/^\.SH NAME/ { n; s/\\//g; p; q }' "$page")
   fi
+  grep -q '^\.SH BUGS' "$page" && grep -q '^Report faults' "$page" && grep -q '^\.BR grseg\\*-import (1)' "$page" || {
+    echo "$page: no BUGS or no SEE ALSO" >&2
+    exit 1
+  }
   [ "$named" = "$says" ] || { echo "$page: '$named', not '$says'" >&2; exit 1; }
 done
 

@@ -198,6 +198,8 @@ def check_refusals():
     for words in ["--at", "start,end", *output], ["-o", "new.mp4"]:
         refused(2, "no grain is in --region '0.05m:0.1m,0.1m:0.12m': the grains lie at x = 4.5 to 5.8 cm, y = -1 to 1.5 cm", three,
                 *nowhere, *words, path=takes)
+    said = call(three, "--at", "0.01,0.05", "-o", "nearest.png")
+    assert said.returncode == 0 and said.stderr == "grseg-render: shows the nearest frames: 5e-05 s for --at 0.01\n", said.stderr
     open("text.h5", "w").write("no run")
     refused(3, "text.h5: is not an HDF5 file, or is truncated or damaged", "text.h5", *output)
 

@@ -224,7 +224,7 @@ first=$(numbers /particles/grains/position/time fine.h5 | head -n 1)
 case $first in 2.000*) ;; *) fail "with another step the run continues at t = $first" ;; esac
 
 refused 2 "nowhere.chk: no such file" --restart nowhere.chk -o x.h5
-refused 3 "whole.h5: is not a checkpoint of grseg-sim; name the file that --checkpoint wrote" \
+refused 3 "whole.h5: is a run, not a checkpoint: grseg-stress makes a table of it" \
   --restart whole.h5 -o x.h5
 head -c 20000 two.chk >torn.chk
 refused 3 "torn.chk: is not a checkpoint, or is truncated or damaged" --restart torn.chk -o x.h5

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/archive.hpp"
 
+#include "formats/core/text.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grseg {
@@ -42,6 +45,19 @@ Vec3 ArchiveFrame::minimum_image(Vec3 between) const
       between[axis] -= length * std::round(between[axis] / length);
   }
   return between;
+}
+
+int digits_of(const std::vector<Vec3>& values)
+{
+  constexpr std::size_t enough = 1000;
+  constexpr int most = 17;
+  int digits = 0;
+  for (std::size_t k = 0; k < std::min(enough, values.size()); ++k)
+    for (const double value : values[k])
+      while (value != 0 && digits < most &&
+             (digits == 0 || parse_number(fmt::format("{:.{}e}", value, digits - 1)) != value))
+        ++digits;
+  return digits;
 }
 
 std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& grains)

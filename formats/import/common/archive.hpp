@@ -154,6 +154,10 @@ struct ArchiveFrame {
   Vec3 minimum_image(Vec3 between) const;
 };
 
+/// Largest number of significant decimal digits with which the components are written, 17 for
+/// numbers in binary; 0 if all are 0. The first thousand vectors decide.
+int digits_of(const std::vector<Vec3>& values);
+
 /// Sets the cell of a frame to the extent of its grains, along the axes that are not periodic. For
 /// archives that state no cell; the frame must have grains.
 void enclose_grains(ArchiveFrame& frame);

@@ -7,6 +7,7 @@
 #include "formats/import/common/apart.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "formats/import/common/text_values.hpp"
+#include "formats/trajectory/file_kind.hpp"
 #include "formats/trajectory/hdf5.hpp"
 
 #include <fmt/format.h>
@@ -190,6 +191,8 @@ std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
     return std::find(groups.begin(), groups.end(), name) != groups.end();
   };
   if (has("h5md")) return is_of("an H5MD file of another program, without contacts", to_tables);
+  if (has("state") && has("version"))
+    return is_of("a checkpoint of grseg-sim", "give its run to grseg-stress and the other tools");
   if (has("VTKHDF")) return is_of("a VTK file", from_paraview);
   if (has("frame") || has("coordinates")) return is_of("a netCDF file", to_dumps);
   return "";
@@ -262,7 +265,7 @@ std::string other_kind(std::string_view start)
   const auto lines = words_by_line(start);
   if (is_xyz(lines)) return is_of("an xyz file", to_dumps);
   if (is_data_of_lammps(lines)) return is_of("a data file of LAMMPS", from_restart);
-  return "";
+  return kind_of_start(start).instead_of("a dump", "");
 }
 
 void refuse_other_kind(const std::string& path)

@@ -141,6 +141,22 @@ bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
   return grains.fixed.empty() && !species.boundary && !species.boundary_ids;
 }
 
+/// Remark if coordinates have so few digits that gaps and overlaps are uncertain; "" if not.
+std::string remark_on_digits(const ArchiveFrame& frame)
+{
+  constexpr int few = 7;
+  const auto& grains = frame.grains;
+  const int digits = digits_of(grains.position);
+  if (grains.radius.empty() || digits == 0 || digits > few) return "";
+  double largest = 0;
+  for (const auto& at : grains.position) largest = std::max(largest, at.cwiseAbs().maxCoeff());
+  const double step = std::pow(10, std::floor(std::log10(largest)) + 1 - digits);
+  return fmt::format(
+      "coordinates have {} digits: gaps and overlaps are known to {:.1g} of the smallest radius (LAMMPS "
+      "writes more by dump_modify ID format float %.15g)",
+      digits, step / *std::min_element(grains.radius.begin(), grains.radius.end()));
+}
+
 }  // namespace
 
 Roster read_roster(const ImportSettings& settings)
@@ -193,6 +209,7 @@ ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<c
         settings.files.grains.empty() ? settings.files.restart : settings.files.grains.front()));
   if (!roster_ && frame.grains.size() == 0)
     throw OtherGrains(fmt::format("{}: there are no grains", frame.place));
+  few_digits_ = remark_on_digits(frame);
   const auto full = roster_ ? full_frame(settings) : frame;
   for (const auto& question : full.questions) questions.ask(question);
   const auto resting = resting_grains_of(settings);
@@ -204,6 +221,7 @@ ScannedArchive::ScannedArchive(const ImportSettings& settings, std::shared_ptr<c
 std::vector<std::string> ScannedArchive::remarks() const
 {
   auto remarks = archive().remarks();
+  if (!few_digits_.empty()) remarks.push_back(few_digits_);
   for (auto& of_frames : frames_.remarks()) remarks.push_back(std::move(of_frames));
   if (roster_)
     remarks.push_back(fmt::format("grains come and go: {} ids in all, between {} and {} in a frame",
@@ -294,6 +312,13 @@ Question ScannedArchive::question_of_cell(const ImportSettings& settings, int ax
     }
   }
   const char name = "xyz"[axis];
+  if (const auto period = suggested_period(frame, axis))
+    return {
+        fmt::format("the ends of the cell along {}", name),
+        "--cell " + ToldCell{axis, period->low, period->high, true}.text(),
+        fmt::format("{} contacts of the first frame join grains of opposite ends, so the cell is "
+                    "periodic; the period follows from them, give the exact one if you know it",
+                    period->contacts)};
   return {fmt::format("the ends of the cell along {}", name),
           "--cell " + ToldCell{axis, low, high, false}.text(),
           "the archive states no cell, or one fitted to its grains; "

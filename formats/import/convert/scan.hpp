@@ -81,6 +81,7 @@ class ScannedArchive {
 
   ArchiveFrames frames_;
   std::shared_ptr<const Roster> roster_;
+  std::string few_digits_;  // remark on the digits of coordinates; may be empty
 };
 
 /// Number of frames that a scan reads. Reading all of them takes half as long as an import.

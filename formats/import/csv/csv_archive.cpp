@@ -238,6 +238,7 @@ class CsvArchive : public Archive {
     fill(frame.grains);
     enclose_grains(frame);
     fill(frame.contacts);
+    judge_digits(frame.contacts.force);
     return true;
   }
 
@@ -247,6 +248,16 @@ class CsvArchive : public Archive {
   }
 
  private:
+  /// Ten rounded forces, half a unit of the last digit each, may be missing in a grain's balance.
+  void judge_digits(const std::vector<Vec3>& forces)
+  {
+    constexpr std::size_t enough = 10;  // a table by hand may have few digits that are exact
+    const int written = forces.size() < enough ? 0 : digits_of(forces);
+    if (written < 3 || 5 * std::pow(10, 1 - written) <= facts_.tolerance) return;
+    facts_.tolerance = 5 * std::pow(10, 1 - written);
+    facts_.tolerance_reason = fmt::format("forces in the tables have {} digits", written);
+  }
+
   /// Advances to the next frame that both tables have.
   bool next_of_both()
   {

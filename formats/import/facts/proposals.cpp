@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace grseg {
@@ -134,6 +135,43 @@ std::optional<Vec3> suggested_gravity(const ArchiveFrame& frame, const std::vect
     if (std::abs(component) < negligible * gravity.norm()) component = 0;
   if (!gravity.allFinite() || gravity.isZero(0)) return std::nullopt;
   return gravity;
+}
+
+std::optional<ProposedPeriod> suggested_period(const ArchiveFrame& frame, int axis)
+{
+  const auto& grains = frame.grains;
+  const auto row = rows_by_id(grains);
+  // Grains that touch across the ends are a period minus their branch apart.
+  Range period, along;
+  std::size_t count = 0;
+  double smallest = INFINITY;
+  for (std::size_t c = 0; !grains.radius.empty() && c < frame.contacts.size(); ++c) {
+    const auto i = row.find(frame.contacts.i[c]), j = row.find(frame.contacts.j[c]);
+    if (frame.contacts.at_wall(c) || i == row.end() || j == row.end()) continue;
+    Vec3 between = grains.position[i->second] - grains.position[j->second];
+    const double apart = std::abs(between[axis]);
+    between[axis] = 0;
+    const double reach = grains.radius[i->second] + grains.radius[j->second];
+    if (apart < 2 * reach || between.norm() > reach) continue;
+    period.add(apart + std::sqrt(reach * reach - between.squaredNorm()));
+    smallest = std::min(smallest, reach);
+    ++count;
+  }
+  for (const auto& at : grains.position) along.add(at[axis]);
+  const double spread = period.high - period.low;
+  if (count < 2 || spread > 0.2 * smallest || along.high - along.low > period.low + spread)
+    return std::nullopt;
+  // Overlaps make the values too large: the roundest number near the least one is the best guess.
+  double length = period.low;
+  for (int digits = 1; digits < 10; ++digits) {
+    const double rounded = std::stod(fmt::format("{:.{}e}", period.low, digits - 1));
+    if (std::abs(rounded - period.low) > std::max(spread, 1e-6 * period.low)) continue;
+    length = rounded;
+    break;
+  }
+  const bool from_zero = along.low >= 0 && along.high <= length;
+  const double low = from_zero ? 0 : along.low;
+  return ProposedPeriod{low, low + length, count};
 }
 
 std::string gravity_option(const Vec3& gravity)

@@ -17,6 +17,15 @@ namespace grseg {
 std::optional<Vec3> suggested_gravity(const ArchiveFrame& frame, const std::vector<double>& mass,
                                       const std::vector<bool>& resting);
 
+/// The bounds of a periodic cell along an axis, from the contacts that join grains at opposite ends.
+struct ProposedPeriod {
+  double low, high;      // in the archive's units
+  std::size_t contacts;  // number of these contacts
+};
+/// Empty if fewer than two contacts of the frame join grains of opposite ends, or if these disagree
+/// about the period.
+std::optional<ProposedPeriod> suggested_period(const ArchiveFrame& frame, int axis);
+
 /// The value of --gravity for a vector: "3.8,-9.0,0".
 std::string gravity_option(const Vec3& gravity);
 

@@ -119,6 +119,22 @@ Finding undecided_gravity(const CheckContext& context, const std::string& why)
   return {"gravity", Verdict::undecided, why, 0};
 }
 
+/// Says why gravity is wrong by orders of magnitude, which a single frame shows: the contacts of a
+/// grain in a bed carry at least its own weight, and at most the layers above it. "" if it may be right.
+std::string absurd(const CheckSeries& series, const CheckContext& context)
+{
+  constexpr double lightest = 0.01, heaviest = 1e6;
+  const double carried = median_acceleration(series) / context.gravity.norm();
+  if (!(carried > 0) || !std::isfinite(carried) || (carried >= lightest && carried <= heaviest))
+    return "";
+  return fmt::format(
+      "gravity as given, {}, cannot be right for a bed: the contacts of a grain carry {:.2g} times its "
+      "weight (median), {}; check --gravity, --units and {}",
+      text_of(context, context.gravity), carried,
+      carried < lightest ? "so it would fall through them" : "as under a million layers of grains",
+      context.masses_are_given ? "--density" : "the masses in the archive");
+}
+
 /// A finding of one of the two methods that check the masses.
 Finding part(Verdict verdict, const std::string& sentence, double measure = 0)
 {
@@ -199,6 +215,8 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
 Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
 {
   const auto found = gravity_from(series, &CheckNumbers::all);
+  const auto why_absurd = absurd(series, context);
+  if (!found && !why_absurd.empty()) return {"gravity", Verdict::failed, why_absurd, 1};
   if (!found)
     return undecided_gravity(
         context, fmt::format("without forces on grains, an estimate of gravity needs {} pairs of "
@@ -232,6 +250,7 @@ Finding judge_gravity(const CheckSeries& series, const CheckContext& context)
                 (differs ? "; as given it is " + text_of(context, context.gravity) : std::string()),
             measure};
   }
+  if (!why_absurd.empty()) return {"gravity", Verdict::failed, why_absurd, measure};
   auto finding =
       undecided_gravity(context, suggestion + ": an error of 3 degrees would not be detected");
   finding.measure = measure;

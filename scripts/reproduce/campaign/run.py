@@ -85,7 +85,9 @@ def simulate(options):
 
 def without_restarts(text):
     """A table, or any other text, without the history lines of restarts."""
-    from tables import shared  # imported here to save time, since make calls this module for every run
+    # Imported here to save time, since make calls this module for every run.
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+    import shared
     return shared.changed(text, "(?m)^# history: grseg-sim --restart run.chk .*\n", "")
 
 

@@ -115,8 +115,9 @@ std::vector<SceneKey> bed_keys()
      "diameter ratio d_L/d_S of large and small grains (nominal)"},
     {"spread", "0.08", number(&Scene::spread, 0, 0.9), bed, yes,
      "(d_max - d_min)/d of the diameters of a species, which are uniformly distributed"},
-    {"density", "1", number(&Scene::density, 1e-9, 1e12), bed, yes,
-     "density of small grains and boundary grains, kg/m^2 (spheres: kg/m^3)"},
+    {"density", "", number(&Scene::density, 1e-9, 1e12), bed, yes,
+     "density of small grains and boundary grains, kg/m^2 (default: 1) or, of spheres, kg/m^3 "
+     "(default: 2500, glass)"},
     {"density-ratio", "1", number(&Scene::density_ratio, 1e-3, 1e3), bed, yes,
      "density of large grains over density of small grains"},
     {"phi-large", "0.3", number(&Scene::phi_large, 0, 1), bed, yes,
@@ -227,8 +228,9 @@ std::vector<SceneKey> geometry_keys()
      "part of a drum's cross-section that the settled bed covers", when.drum},
     {"plate-speed", "1", number(&Scene::plate_speed, -1e6, 1e6), flow, no,
      "velocity of a shear cell's upper plate along x, m/s", when.shear},
-    {"plate-pressure", "2", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
-     "pressure of a shear cell's plate on the grains, N/m (spheres: Pa)", when.shear},
+    {"plate-pressure", "", number(&Scene::plate_pressure, 1e-12, 1e12), flow, no,
+     "pressure of a shear cell's plate on the grains, N/m (default: 2) or, of spheres, Pa (default: "
+     "5000)", when.shear},
     {"plate-mass", "", number(&Scene::plate_mass, 1e-60, 1e60), flow, no,
      "mass of a shear cell's plate, kg (default: mass of its grains), at most 256 layers of small "
      "grains", when.shear},

@@ -73,6 +73,10 @@ struct SceneKey {
 /// /parameters, comparisons in a restart and docs/guide/scene-keys.md are derived from it.
 const std::vector<SceneKey>& scene_keys();
 
+/// Answer to a key of an effect that no scene has, such as "in grseg-sim contacts do not attract ...";
+/// "" for any other word.
+std::string absent_effect(std::string key);
+
 /// All keys as options for Boost.ProgramOptions.
 boost::program_options::options_description scene_options();
 

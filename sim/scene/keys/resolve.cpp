@@ -43,8 +43,8 @@ bool is_given(const po::variables_map& values, const char* key)
   return values.count(key) > 0 && !values[key].defaulted();
 }
 
-/// Scene with the value of every key that has one; keys that follow from others are not set yet,
-/// except the contact law.
+/// Scene with the value of every key that has one. Of keys that follow from others, contact law,
+/// density and the pressure of a plate are set, too.
 Scene stated(const po::variables_map& values)
 {
   Scene scene;
@@ -58,6 +58,10 @@ Scene stated(const po::variables_map& values)
   scene.large_diameter = scene.small_diameter * scene.size_ratio;
   if (scene.threads == 0) scene.threads = omp_get_num_procs();
   if (values["contact-law"].empty()) scene.law = usual_law(scene.restitution);
+  // Spheres are of glass; the default pressure gives them the inertial number of the discs.
+  const double usual_density = scene.dimension == 3 ? 2500 : 1;
+  if (values["density"].empty()) scene.density = usual_density;
+  if (values["plate-pressure"].empty()) scene.plate_pressure = 2 * usual_density;
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include "formats/cli/words.hpp"
 #include "formats/core/files.hpp"
 #include "formats/core/text.hpp"
+#include "formats/trajectory/file_kind.hpp"
 #include "sim/scene/geometry.hpp"
 #include "sim/scene/keys/keys.hpp"
 
@@ -98,9 +99,10 @@ void read_keys(const std::string& text, const std::string& name,
     const auto key = without_dashes(unknown.get_option_name());
     std::vector<std::string> known;
     for (const auto& option : keys.options()) known.push_back(option->long_name());
-    const auto suggestion = nearest(key, known);
+    const auto absent = absent_effect(key), suggestion = nearest(key, known);
     throw FormatError(fmt::format("{}: unknown key '{}'{}", place(key), key,
-                                  suggestion.empty()
+                                  !absent.empty() ? ": " + absent
+                                  : suggestion.empty()
                                       ? "; grseg-sim --help lists all"
                                       : fmt::format(", did you mean '{}'?", suggestion)));
   } catch (const po::invalid_config_file_syntax&) {
@@ -177,6 +179,8 @@ std::string differing_key(const Scene& a, const Scene& b, KeyRole role)
 void read_scene_file(const std::string& path, po::variables_map& values)
 {
   require_file(path);
+  if (const auto wrong = kind_of_file(path).instead_of("a scene file", ""); !wrong.empty())
+    throw FormatError(fmt::format("{}: {}", path, wrong));
   read_keys(
       text_of(path), path, [&](const std::string& key) { return place_of(path, key); },
       [](ParsedKeys&) {}, values);

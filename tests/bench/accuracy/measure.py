@@ -21,7 +21,7 @@ def tool(folder, name, *arguments):
 
 
 def version(folder):
-    return tool(folder, "grseg-sim", "--version").strip()
+    return tool(folder, "grseg-sim", "--version").split("\n")[0]
 
 
 def processor():

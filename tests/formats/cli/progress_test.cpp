@@ -29,6 +29,13 @@ TEST(Progress, StatesNoRemainingTimeIfTheTotalIsUnknown)
   EXPECT_EQ(progress_text(30, {"frames"}, 10), "30 frames, 3.0/s");
 }
 
+// A bed was expected to rest after 0.3 s, and still moves.
+TEST(Progress, BeyondAnEstimatedTotalStatesNoTimeLeft)
+{
+  const Work deposition{"s of deposition", 0.3, 0, 2};
+  EXPECT_EQ(progress_text(0.45, deposition, 3), "0.45 s of deposition, 0.15/s");
+}
+
 TEST(Progress, SaysNeitherRateNorTimeBeforeTheyAreKnown)
 {
   EXPECT_EQ(progress_text(0, {"windows", 100}, 5), "0 of 100 windows");

@@ -54,6 +54,48 @@ TEST(Proposals, GravityIsNotKnownWithoutForcesOnGrainsMassesOrTheMeaningOfColumn
   EXPECT_FALSE(suggested_gravity(frame, masses, {}));
 }
 
+/// Discs of radius 0.5 at x = 0.25 and 3.75 in two rows: across the ends of a cell of `period` they
+/// overlap by 3.5 - (period - 1).
+ArchiveFrame across_the_ends(double shift)
+{
+  ArchiveFrame frame;
+  frame.grains.id = {1, 2, 3, 4};
+  frame.grains.radius = {0.5, 0.5, 0.5, 0.5};
+  frame.grains.position = {
+      {0.25 + shift, 0, 0}, {3.75 + shift, 0, 0}, {0.26 + shift, 2, 0}, {3.75 + shift, 2, 0}};
+  frame.contacts.i = {1, 4};
+  frame.contacts.j = {2, 3};
+  frame.contacts.force = {{1, 0, 0}, {1, 0, 0}};
+  return frame;
+}
+
+// Branches of 1 across the ends: the periods would be 4.5 and 4.49, of which overlaps make the least
+// the likeliest.
+TEST(Proposals, ACellIsPeriodicWhereContactsJoinItsEnds)
+{
+  const auto period = suggested_period(across_the_ends(0), 0);
+  ASSERT_TRUE(period);
+  EXPECT_EQ(period->contacts, 2u);
+  EXPECT_EQ(period->low, 0);
+  EXPECT_NEAR(period->high, 4.5, 1e-12);
+  EXPECT_NEAR(suggested_period(across_the_ends(-2), 0)->low, -1.75, 1e-12);
+  EXPECT_FALSE(suggested_period(across_the_ends(0), 1));
+  auto one = across_the_ends(0);
+  one.contacts.i = {1}, one.contacts.j = {2}, one.contacts.force = {{1, 0, 0}};
+  EXPECT_FALSE(suggested_period(one, 0)) << "one contact may be an error";
+  auto open = across_the_ends(0);
+  open.contacts.i = {1, 3}, open.contacts.j = {3, 1};
+  EXPECT_FALSE(suggested_period(open, 0));
+}
+
+TEST(Proposals, ADecimalNumberHasTheDigitsWithWhichItIsWritten)
+{
+  EXPECT_EQ(digits_of({{0.123456, 0, -5}}), 6);
+  EXPECT_EQ(digits_of({{1e-7, 2.5e3, 0}}), 2);
+  EXPECT_EQ(digits_of({{0.1 + 0.2, 0, 0}}), 17);
+  EXPECT_EQ(digits_of({}), 0);
+}
+
 TEST(Proposals, TheBaseIsWhatNeverMovesWhileOtherGrainsDo)
 {
   const auto first = column({0, 0, 0}).grains;

@@ -64,6 +64,29 @@ TEST(JudgeGravity, ThreeDegreesAreSeenWhereTheErrorIsSmall)
   EXPECT_EQ(gravity_of({0.5, -10, 0}, 0.2).verdict, Verdict::undecided);
 }
 
+// Contacts of a grain at rest carry its weight, 10 m/s^2 times its mass, or more. Here they carry a
+// thousandth of it, or a hundred million times it; 0.2 is too blunt for another verdict.
+TEST(JudgeGravity, ThatContactsCannotCarryIsRefusedAlsoFromOneFrame)
+{
+  const auto carrying = [](double acceleration, bool has_estimate) {
+    auto frame = frame_with({0, -10, 0}, 0.2);
+    if (!has_estimate) frame.all = {};
+    frame.acceleration = acceleration;
+    return judge_gravity({frame}, context_of());
+  };
+  for (const bool has_estimate : {true, false}) {
+    EXPECT_EQ(carrying(100, has_estimate).verdict, Verdict::undecided);
+    EXPECT_EQ(carrying(0, has_estimate).verdict, Verdict::undecided) << "no grain has contacts";
+    const auto light = carrying(0.01, has_estimate);
+    EXPECT_EQ(light.verdict, Verdict::failed);
+    EXPECT_TRUE(mentions(light.sentence, "carry 0.001 times its weight"));
+  }
+  const auto heavy = carrying(1e9, false);
+  EXPECT_EQ(heavy.verdict, Verdict::failed);
+  EXPECT_TRUE(mentions(heavy.sentence, "check --gravity, --units and --density"));
+  EXPECT_EQ(carrying(1e9, true).verdict, Verdict::passed) << "pressed, as by a plate";
+}
+
 // Four frames, each with gravity accurate to 0.01; the slope in the last two is 20 degrees larger.
 TEST(JudgeGravity, ThatTurnsWithinTheArchiveIsRefused)
 {

@@ -200,6 +200,18 @@ TEST(Scene, APlateIsAsHeavyAs256LayersOfSmallGrainsAtMost)
   EXPECT_EQ(plate(257), "plate-mass");
 }
 
+// Spheres are of glass. A plate presses them 2500 times as much, so that the inertial number is that of
+// the discs.
+TEST(Scene, SpheresHaveTheDensityOfGlassUnlessTheyHaveAnother)
+{
+  EXPECT_EQ(scene_from({}).density, 1);
+  const std::vector<std::string> spheres{"--dimension", "3", "--geometry", "shear"};
+  EXPECT_EQ(scene_from(spheres).density, 2500);
+  EXPECT_EQ(scene_from(spheres).plate_pressure, 5000);
+  EXPECT_EQ(scene_from({"--dimension", "3", "--density", "1"}).density, 1);
+  EXPECT_DOUBLE_EQ(scene_from(spheres).gravity, scene_from({"--geometry", "shear"}).gravity);
+}
+
 TEST(Scene, NearlyElasticGrainsReboundInTheStepInWhichTheyMeet)
 {
   EXPECT_EQ(scene_from({"--restitution", "0.9"}).law, ContactLaw::speculative);
@@ -384,6 +396,23 @@ TEST_F(SceneFile, AnUnknownKeyIsNamedWithItsLineAndTheNearestKnownOne)
 {
   EXPECT_EQ(complaint("# a chute\nslope = 23\nfrction = 0.5\n"),
             path + ":3: unknown key 'frction', did you mean 'friction'?");
+}
+
+TEST_F(SceneFile, AnEffectThatNoSceneHasIsAnsweredWithWhatThereIs)
+{
+  EXPECT_EQ(complaint("slope = 23\ncohesion = 1\n"),
+            path +
+                ":2: unknown key 'cohesion': in grseg-sim contacts do not attract; they have "
+                "friction and restitution; docs/guide/limits.md names programs with more");
+  EXPECT_NE(absent_effect("rolling_friction").find("do not resist rolling"), std::string::npos);
+  EXPECT_NE(absent_effect("species").find("size-ratio, phi-large"), std::string::npos);
+  for (const auto& key : scene_keys()) EXPECT_EQ(absent_effect(key.name), "") << key.name;
+}
+
+TEST_F(SceneFile, ATableIsNamedAndNotRead)
+{
+  EXPECT_EQ(complaint("# program: grseg-micro 1.0.0\na\n1\n"),
+            path + ": is a table of grseg-micro 1.0.0, not a scene file: grseg-derive reads it");
 }
 
 TEST_F(SceneFile, ALengthWithoutAUnitIsNamedWithItsLine)
