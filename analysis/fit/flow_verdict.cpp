@@ -62,11 +62,13 @@ class Judge {
   FlowVerdict verdict()
   {
     judge_motion();
-    judge_start();
-    if (fit_.rule.adds_up()) {
-      judge_change();
-      judge_width();
+    if (std::ranges::any_of(data_.runs, [](std::size_t windows) { return windows < 3; }))
+      say("too few windows to tell whether the motion or B is steady");
+    else {
+      judge_start();
+      if (fit_.rule.adds_up()) judge_change();
     }
+    if (fit_.rule.adds_up()) judge_width();
     return std::move(verdict_);
   }
 
@@ -102,11 +104,9 @@ class Judge {
   void judge_start()
   {
     const Series motion(knows_speed() ? motion_.speed : stress_by_window(data_, settings_));
-    const auto whole = change_of(motion, data_.runs);
-    if (!whole) return say("too few windows to tell whether the motion is steady");
     double out = knows_speed() ? start_to_leave_out(motion, data_.runs, is_steady)
                                : seen_start(motion, data_.runs);
-    if (out > 0.5) return say_unsteady(*whole);
+    if (out > 0.5) return say_unsteady(*change_of(motion, data_.runs));
     if (fit_.rule.adds_up()) out = std::max(out, start_of_b());
     if (!(out > 0)) return say("steady in these times");
     say(fmt::format("steady since t = {:.4g} s", time_after(data_, out)));
@@ -156,7 +156,7 @@ class Judge {
   {
     const auto moves = separation();
     const auto b = change_of({sums_.excess(), sums_.weight()}, data_.runs);
-    if (!b || !b->is_known())
+    if (!b->is_known())
       return say("too few windows to tell whether B changes" + (moves.empty() ? "" : "; " + moves));
     if (b->is_seen()) {
       verdict_.b_changes = true;

@@ -16,7 +16,7 @@ namespace grseg {
 struct FlowVerdict {
   std::vector<std::string> sentences;  // without full stop; a sentence each on motion, steadiness,
                                        // change of B, and the time that a narrower interval needs
-  std::vector<std::string> doubts;     // conditions under which B is not that of a steady flow
+  std::vector<std::string> doubts;     // conditions under which no steady flow has this B
   bool b_changes = false;              // B changes in time: its interval is over these times alone
 };
 

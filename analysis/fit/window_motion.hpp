@@ -8,11 +8,11 @@
 
 namespace grseg {
 
-/// How the grains of the tables move, from all of their layers, also those that the fit leaves out.
+/// How the grains of the tables move, from all of their layers, also layers that the fit leaves out.
 struct WindowMotion {
   // By window, run after run; empty if a table does not tell.
   Eigen::VectorXd speed;   // root of the mean square of the velocity, m/s
-  Eigen::VectorXd height;  // centre of the larger species above that of the smaller one, m
+  Eigen::VectorXd height;  // centre of the larger species above the centre of the smaller one, m
 
   // By run. Inertial number of its mean flow, gamma d sqrt(rho/sigma_yy), with the slope gamma of
   // the least-squares line u(y) (in annuli y times the slope of u/y), and means over all grains of

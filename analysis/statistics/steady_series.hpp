@@ -25,7 +25,7 @@ struct Series {
   Series(const Eigen::VectorXd& of, const Eigen::VectorXd& weight) : above(of), below(weight) {}
 
   double mean() const { return above.sum() / below.sum(); }
-  /// The series without the first `fraction` of each run; `runs` becomes that of the rest.
+  /// The series without the first `fraction` of each run; `runs` becomes the lengths of the rest.
   Series without_start(double fraction, RunLengths& runs) const;
 };
 
