@@ -279,8 +279,10 @@ Json partition_data(const StressTables& input, const PartitionSettings& settings
     if (population == over) object["over_words"] = words;
   object["verdict"] = report.verdict;
   object["doubts"] = report.doubts_of_tables;
-  if (const auto doubt = doubt_of_zero(report.rules.back().line.p_zero.estimate()); !doubt.empty())
-    object["doubts"].push_back(doubt);
+  std::string of_zero;  // the same for every rule that has one; the last is of all flows
+  for (const auto& fit : report.rules)
+    if (std::isfinite(fit.line.p_zero.value)) of_zero = doubt_of_zero(fit.line.p_zero.estimate());
+  if (!of_zero.empty()) object["doubts"].push_back(of_zero);
   return object;
 }
 

@@ -147,7 +147,7 @@ class Judge {
   {
     if (motion_.height.size() == 0) return "";
     const auto height = change_of(Series(motion_.height / small_diameter_), data_.runs);
-    if (!height || !height->is_seen() || std::abs(height->size()) < 0.5) return "";
+    if (std::abs(height->size()) < 0.5 || (height->is_known() && !height->is_seen())) return "";
     return fmt::format("large grains {} by {:.1f} dS against small ones",
                        height->size() > 0 ? "rise" : "sink", std::abs(height->size()));
   }

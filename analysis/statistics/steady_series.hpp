@@ -11,8 +11,8 @@
 /// rest, and a change in time. Their rates of error: docs/studies/uncertainty.md.
 namespace grseg {
 
-/// Probability below which a difference counts as one; 5 % for either of two series.
-inline constexpr double rarely = 0.025;
+/// Probability below which a difference counts as one: its 95 % interval leaves 0 out.
+inline constexpr double rarely = 0.05;
 
 /// A quantity of each window, `above`/`below`, such as B with its weight.
 struct Series {

@@ -134,7 +134,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     const auto values = parse(argc, argv, info, all);
     if (values.count("help") > 0) {
       print_help(info, all);
-    } else if (values.count("columns") > 0) {
+    } else if (!columns.empty() && values.count("columns") > 0) {
       std::cout << columns;
     } else if (values.count("cite") > 0) {
       std::cout << bibtex;

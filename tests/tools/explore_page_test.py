@@ -189,11 +189,11 @@ def check_interval_between(page):
 def check_readout(page):
     """Beside B stand what its interval is over, its windows and times, and the doubts of grseg-fit, those of its rule alone."""
     page.keys("3")
-    told = tool("fit", "sums.tsv", "--partition", "half", "--quiet")
+    told = tool("fit", "sums.tsv", "--partition", "size,half", "--quiet")
     words = re.search(r"^# estimand: windows: (.*)$", told, re.MULTILINE)[1]
     windows = re.search(r"^# windows: (.*)$", told, re.MULTILINE)[1]
     assert words in page.text("b-over") and f"From {windows} windows of 1.25 s, t = 0 to " in page.text("b-over"), page.text("b-over")
-    doubts = re.findall(r"^# doubt: (?:half: )?(.*)$", told, re.MULTILINE)
+    doubts = re.findall(r"^# doubt: (?!size: )(?:(?:size, )?half: )?(.*)$", told, re.MULTILINE)
     shown = page.run("return Array.from(document.querySelectorAll('#b-doubts li'), (e) => e.textContent)")
     assert [text[:20] for text in shown] == [text[:20] for text in doubts], (shown, doubts)
     for texts in ([], ["flowing", "steady since t = 10 s"]):

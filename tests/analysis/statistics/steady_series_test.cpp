@@ -22,7 +22,7 @@ Eigen::VectorXd alternating(double first, double second)
 }
 
 // The last half has ten windows of variance 10/9, so that a mean of the first two windows that lies t
-// above it has the error sqrt(10/9 (1/2 + 1/10)) = 0.816, with nine degrees of freedom: 2.5 % is t = 2.69.
+// above it has the error sqrt(10/9 (1/2 + 1/10)) = 0.816, with nine degrees of freedom: 5 % is t = 2.26.
 TEST(StartOfFlow, IsComparedWithTheLastHalfByStudentsT)
 {
   const double rare = gsl_cdf_tdist_Qinv(rarely / 2, 9) * std::sqrt(10. / 9 * 0.6);
@@ -61,13 +61,13 @@ TEST(StartOfFlow, IsCutFromEachRun)
   EXPECT_EQ(rest.below, Eigen::VectorXd::Ones(5));
 }
 
-/// Checks that `alarm` is true for at most 2.5 % of steady series, also for correlated windows and
+/// Checks that `alarm` is true for at most 5 % of steady series, also for correlated windows and
 /// several runs, up to 3.5 standard deviations of a share of so many trials.
 template <class Alarm>
 void expect_few_alarms(const Alarm& alarm)
 {
   constexpr int trials = 1000;
-  const double most = 0.025 + 3.5 * std::sqrt(0.025 * 0.975 / trials);
+  const double most = rarely + 3.5 * std::sqrt(rarely * (1 - rarely) / trials);
   for (const auto& runs : {RunLengths{120}, RunLengths{48, 48}}) {
     synthetic::Ar1 noise(0.5);
     int alarms = 0;
