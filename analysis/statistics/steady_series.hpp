@@ -11,9 +11,6 @@
 /// rest, and a change in time. Their rates of error: docs/studies/uncertainty.md.
 namespace grseg {
 
-/// Probability below which a difference counts as one: its 95 % interval leaves 0 out.
-inline constexpr double rarely = 0.05;
-
 /// A quantity of each window, `above`/`below`, such as B with its weight.
 struct Series {
   Eigen::VectorXd above, below;
@@ -37,7 +34,8 @@ struct Change {
   /// Probability of a change at least this large if there is none; 1 if the error is unknown.
   double chance() const;
   bool is_known() const { return error.degrees > 0; }
-  bool is_seen() const { return chance() < rarely; }
+  /// True if the 95 % interval of the change leaves 0 out.
+  bool is_seen() const { return chance() < 0.05; }
   double size() const { return last - first; }
 };
 
@@ -56,9 +54,10 @@ std::optional<Change> start_of(const Series& series, const RunLengths& runs);
 double start_to_leave_out(const Series& series, const RunLengths& runs,
                           const std::function<bool(const Series&, const RunLengths&)>& is_steady);
 
-/// start_to_leave_out() by start_of(): 0 unless a start is seen; otherwise its rest has a `chance` of
-/// at least `unseen`, so that less of the start remains in it than would only just not be seen.
-inline constexpr double unseen = 0.2;
+/// start_to_leave_out() by start_of(): 0 if the chance is at least `rarely`, so that 5 % of steady
+/// flows show a start in one of two series. Otherwise the rest has a chance of at least `unseen`, so
+/// that less of the start remains in it than would only just not be seen.
+inline constexpr double rarely = 0.025, unseen = 0.2;
 double seen_start(const Series& series, const RunLengths& runs);
 
 }  // namespace grseg

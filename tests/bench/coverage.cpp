@@ -120,7 +120,7 @@ Eigen::VectorXd added(Eigen::VectorXd series, const RunLengths& runs, const Of& 
 bool shows_start(const Series& series, const RunLengths& runs)
 {
   const auto start = start_of(series, runs);
-  return start && start->is_seen();
+  return start && start->chance() < rarely;
 }
 
 /// Prints how often a start and a change are seen in steady series and in series with a start, 2 or 4
