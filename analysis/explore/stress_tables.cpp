@@ -70,16 +70,17 @@ StressTables make_tables(FrameLoop& loop, const std::string& command)
                          species.size());
     tables.push_back(
         table_of(loop, power, command,
-                 joined(content_columns(species, D), none.of.back().columns(species))));
+                 joined(joined(content_columns(species, D), motion_columns(D)),
+                        none.of.back().columns(species))));
   }
   const Composition<D> no_grains(loop.layers(), GrainArea::clipped, std::nullopt, species.size());
   for (const auto& window : loop.windows()) {
     const auto [composition, stress] =
-        loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, none);
+        loop.sum<D>(window, {.velocity = true, .contacts = true}, no_grains, none);
     for (std::size_t layer = 0; layer < stress.of.front().layers(); ++layer)
       for (std::size_t k = 0; k < tables.size(); ++k)
         tables[k].rows.push_back(table_row(
-            loop, window, layer, joined(composition.mean(layer), stress.of[k].row(layer))));
+            loop, window, layer, joined(composition.row(layer), stress.of[k].row(layer))));
   }
   StressTables all{{std::move(tables.front())}, {}};
   for (std::size_t k = 1; k < tables.size(); ++k) all.of_powers.push_back({std::move(tables[k])});

@@ -2,8 +2,11 @@
 #include "analysis/fit/data_doubts.hpp"
 
 #include "analysis/frames/runs_of_tables.hpp"
+#include "formats/core/text.hpp"
 
 #include <fmt/format.h>
+
+#include <set>
 
 namespace grseg {
 namespace {
@@ -21,12 +24,28 @@ std::string doubt_of_flows(const std::vector<FitTable>& tables)
   return "";
 }
 
+/// Warning that a table is the mean of several runs; "" if there is none.
+std::string doubt_of_merged(const std::vector<Table>& tables)
+{
+  for (const auto& table : tables) {
+    std::set<std::string> seeds;
+    for (const auto& source : sources_of(table)) seeds.insert(source.seed());
+    if (seeds.size() > 1)
+      return fmt::format(
+          "{} is the mean of {} runs of other seeds, which count as one run here; an interval over "
+          "runs needs the table of each",
+          printable(table.name), seeds.size());
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
                                           const std::vector<FitTable>& read, const FitData& data)
 {
-  std::vector<std::string> doubts{find_runs(tables).doubt(tables), doubt_of_flows(read)};
+  std::vector<std::string> doubts{find_runs(tables).doubt(tables), doubt_of_flows(read),
+                                  doubt_of_merged(tables)};
   std::erase(doubts, "");
   if (data.still > 0)
     doubts.push_back(fmt::format(

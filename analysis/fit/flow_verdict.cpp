@@ -68,7 +68,7 @@ class Judge {
       judge_start();
       if (fit_.rule.adds_up()) judge_change();
     }
-    if (fit_.rule.adds_up()) judge_width();
+    if (fit_.rule.adds_up() && flows_steadily_) judge_width();
     return std::move(verdict_);
   }
 
@@ -87,13 +87,15 @@ class Judge {
 
   void judge_motion()
   {
-    if (!knows_speed()) return say("motion unknown: the tables have no velocities");
+    if (!knows_speed())
+      return say("motion unknown: the tables have no velocities; grseg-stress writes them now");
     const auto speed = fmt::format("r.m.s. speed {:.2g} m/s", Series(motion_.speed).mean());
     const auto& numbers = motion_.inertial_number;
     if (numbers.empty() || !std::ranges::all_of(numbers, [](double i) { return i >= 0; }))
       return say(fmt::format("moves: {}, inertial number unknown", speed));
     const auto words = fmt::format("inertial number {}, {}", range_text(numbers), speed);
     if (std::ranges::min(numbers) >= least_inertial_number) return say("flows: " + words);
+    flows_steadily_ = false;
     say("rests or creeps: " + words);
     doubt(
         fmt::format("the inertial number is below {:g}: this bed rests or creeps, and B is left "
@@ -108,7 +110,8 @@ class Judge {
                                : seen_start(motion, data_.runs);
     if (out > 0.5) return say_unsteady(*change_of(motion, data_.runs));
     if (fit_.rule.adds_up()) out = std::max(out, start_of_b());
-    if (!(out > 0)) return say("steady in these times");
+    if (!(out > 0))
+      return say(knows_speed() ? "steady in these times" : "the stress is steady in these times");
     say(fmt::format("steady since t = {:.4g} s", time_after(data_, out)));
     doubt(fmt::format("the start of the flow differs from the rest; --begin {:.4g} leaves it out",
                       time_after(data_, out)));
@@ -116,7 +119,8 @@ class Judge {
 
   static bool is_steady(const Series& speed, const RunLengths& runs)
   {
-    return !accelerates(change_of(speed, runs)) && !accelerates(start_of(speed, runs));
+    const auto change = change_of(speed, runs);
+    return change && !accelerates(change) && !accelerates(start_of(speed, runs));
   }
 
   /// Fraction of the runs in which B differs from its later values by more than the composition of
@@ -137,6 +141,7 @@ class Judge {
     else
       say(fmt::format("{}: the speed goes {} m/s between the first and the last third of the time",
                       whole.size() > 0 ? "accelerates" : "slows down", thirds));
+    flows_steadily_ = false;
     doubt(
         "the flow is not steady at any time of these tables; a longer run, and --begin, may reach "
         "its steady part");
@@ -191,10 +196,11 @@ class Judge {
     const double times = times_for(half, over_runs ? 1 : 2.0 / 3);
     const auto of_runs =
         fmt::format("{:.0f} such runs", std::ceil(times * static_cast<double>(data_.runs.size())));
-    say(fmt::format("B +- {:g} needs {}", wanted_half_width,
-                    over_runs || verdict_.b_changes
-                        ? of_runs
-                        : fmt::format("{:.3g} s of this flow, or {}", times * seconds, of_runs)));
+    say(fmt::format(
+        "B +- {:g} needs {}", wanted_half_width,
+        over_runs || verdict_.b_changes
+            ? of_runs
+            : fmt::format("about {:.2g} s of this flow, or {}", times * seconds, of_runs)));
   }
   /// Multiple of the present data with which the half-width `half` becomes the wanted one: the
   /// error falls with its root, and the degrees of freedom grow with its `power` (of windows 2/3:
@@ -220,6 +226,7 @@ class Judge {
   WindowMotion motion_;
   WindowSums sums_;
   double small_diameter_;
+  bool flows_steadily_ = true;  // if not, more data of this kind would not be of a steady flow
   FlowVerdict verdict_;
 };
 

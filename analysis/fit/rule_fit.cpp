@@ -88,9 +88,20 @@ double part_of_thickness(const FitData& data, const PartitionRule& rule, FitSett
   return estimators_of(kept).B - estimators_of(removed).B;
 }
 
-/// Warning that gradients inside the layers move B by more than half its interval, usually "".
+/// Warning that gradients inside the layers move B by more than half its interval, or by more than
+/// they can, usually "". If phi_L, phi_S and the stress are positive and linear in a layer, |phi_L'| h/2
+/// <= min(phi_L, phi_S) and |sigma'| h/2 <= sigma, so that they add at most 2/3 to B (Thickness).
 std::string doubt_of_thickness(const RuleFit& fit, const FitSettings& settings)
 {
+  constexpr double most = 2.0 / 3;
+  if (std::abs(fit.of_thickness) > most)
+    return fmt::format(
+        "by differences to the next layers, gradients inside the layers add {:.2g} to B of their "
+        "means, but straight profiles add at most 2/3: {}; take thinner layers, or cells with more "
+        "grains",
+        fit.of_thickness,
+        settings.thickness == Thickness::kept ? "do not use --thickness removed here"
+                                              : "B is wrong; --thickness kept leaves this term in");
   if (!(std::abs(fit.of_thickness) > (fit.high.B - fit.low.B) / 2)) return {};
   return fmt::format(
       "gradients inside the layers {} {:.2g} to B of their means, more than half the interval; {}",

@@ -68,6 +68,14 @@ MotionSums Composition<D>::motion(std::size_t layer) const
   return {sum.u / frames, sum.square / frames};
 }
 
+template <int D>
+std::vector<double> Composition<D>::row(std::size_t layer) const
+{
+  auto row = mean(layer);
+  const auto sums = motion(layer);
+  return add_all(row, {sums.u, sums.square});
+}
+
 template class Composition<2>;
 template class Composition<3>;
 

@@ -61,6 +61,8 @@ class Composition {
   Contents mean() const;
   /// Motion in a layer; 0 if frames were read without velocities.
   MotionSums motion(std::size_t layer) const;
+  /// Numbers of a layer in a table of grseg-stress: contents, then motion.
+  std::vector<double> row(std::size_t layer) const;
 
  private:
   struct Sums {

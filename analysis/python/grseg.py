@@ -1774,6 +1774,8 @@ def fit(source, rule="size", layer=None, window=None, stride=None, begin=None, e
     for one in source if isinstance(source, (list, tuple)) else [source]:
         if isinstance(one, Run):
             one = one.contact_sums(begin=begin, end=end, rule=rule, **of_sums)
+        elif not isinstance(one, Table):
+            raise ValueError(f"fit: {one!r} is neither a Run nor a Table; open it with grseg.Run or grseg.read_table")
         elif of_sums:
             raise ValueError(f"{next(iter(of_sums))}: {one.name} is a table, which has its layers and windows; leave it out")
         tables.append(one)

@@ -92,12 +92,10 @@ void tabulate(FrameLoop& loop, const Settings& s, const ContactAssignment& chose
     const auto [composition, stress] =
         loop.sum<D>(window, {.velocity = true, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < stress.layers(); ++layer) {
-      auto row = composition.mean(layer);
-      const auto motion = composition.motion(layer);
+      auto row = composition.row(layer);
       auto sums = map ? stress.mean(layer).sums : ContactSums<D>(0);
-      sums.content = row;
+      sums.content = composition.mean(layer);
       sums.volume = loop.layers().volume(layer);
-      add_all(row, {motion.u, motion.square});
       add_all(row, stress.row(layer));
       table.add(window, layer, add_all(row, values_of(fields_of(sums))));
     }

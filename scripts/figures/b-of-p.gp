@@ -7,7 +7,7 @@ folder = named(ARG1)
 scan = folder."/scan.tsv"
 stock = folder."/stock.tsv"
 marked = system("test -f ".quoted(stock)." && echo yes") eq "yes"
-same_runs = system("cat ".quoted(scan)." ".quoted(stock)." | awk '/^# input: / {n[$0]++} END {for (run in n) if (n[run] != 2) other = 1; print other ? \"no\" : \"yes\"}'")
+same_runs = system("cat ".quoted(scan)." ".(marked ? quoted(stock) : "")." | awk '/^# input: / {n[$0]++} END {for (run in n) if (n[run] != 2) other = 1; print other ? \"no\" : \"yes\"}'")
 if (marked && same_runs eq "no") { system("echo 'b-of-p.gp: scan.tsv and stock.tsv of ".folder." are of different runs; make both from the same tables' >&2"); exit status 1 }
 cell(rule, quantity) = marked ? number_of(stock, rule, quantity) : NaN
 rules = "size contact-point half"

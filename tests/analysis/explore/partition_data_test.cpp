@@ -152,7 +152,8 @@ TEST(PartitionData, SaysWhatItsIntervalsAreOverAndWhyTheyMayBeTooNarrow)
   EXPECT_EQ(data["over_words"].get<std::string>().rfind("B of these runs, if they had lasted", 0),
             0u);
   EXPECT_EQ(data["settings"]["times"], "0 to 2 s");
-  const std::string few = "one window is one observation, too few for an interval";
+  const std::string few =
+      "one window is one observation, too few for an interval; make more with a shorter --window";
   EXPECT_EQ(data["rules"][0]["doubt"], few) << "nothing moves between the two windows";
   EXPECT_EQ(data["scan"]["doubts"][50], few);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/fit_data.hpp"
 
+#include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_pairs.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,6 +96,27 @@ TEST(FitData, ATwinAddsNoObservations)
   EXPECT_NEAR(width(both) / width(one), 1, 0.01);
 }
 
+TEST(FitData, AMeanOfRunsOfSeveralSeedsIsDoubted)
+{
+  auto table = table_of_run({"grseg-sim a.ini"}, 0, 0.1);
+  const auto doubts = [&] {
+    const std::vector<Table> tables{table};
+    return doubts_of_tables(tables, synthetic::read_all(tables), read(tables));
+  };
+  EXPECT_TRUE(doubts().empty());
+  std::erase_if(table.header, [](const HeaderLine& line) {
+    return line.first == "history" || line.first == "input";
+  });
+  for (const char* seed : {"1", "2"}) {
+    table.header.emplace_back("history", fmt::format("grseg-sim a.ini --seed {}", seed));
+    table.header.emplace_back("input", fmt::format("xxh3 {}", seed));
+    table.header.emplace_back("bed", fmt::format("grains 3, sizes 3, crc32 {0}, seed {0}", seed));
+  }
+  const auto found = doubts();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(synthetic::holds(found[0], "is the mean of 2 runs of other seeds")) << found[0];
+}
+
 TEST(FitData, WindowsInWhichNothingMovesAreOneObservationWithoutAnInterval)
 {
   const auto still = table_of_run({"grseg-sim a.ini"}, 0, 1e-9);
@@ -103,7 +126,9 @@ TEST(FitData, WindowsInWhichNothingMovesAreOneObservationWithoutAnInterval)
   EXPECT_EQ(data.samples.size(), 10u);
   const auto fit = fit_rule(data, {}, {});
   EXPECT_TRUE(std::isnan(fit.low.B) && std::isnan(fit.high.B));
-  EXPECT_EQ(fit.doubt, "one window is one observation, too few for an interval");
+  EXPECT_EQ(
+      fit.doubt,
+      "one window is one observation, too few for an interval; make more with a shorter --window");
 }
 
 TEST(FitData, EachFilterCountsWhatItRemoves)

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <tuple>
+
 namespace grseg {
 namespace {
 
@@ -66,6 +69,24 @@ TEST(Thickness, LayersAddTheProductOfTheirGradientsTimesASquareOfTheirThickness)
     EXPECT_NEAR(bed.b(layers, Thickness::removed), 0, 1e-14) << layers;
   }
   EXPECT_LT(bed.added(4), -0.03);  // so that the test could fail
+}
+
+// The stress falls from 100 to 1 and 0.01 from layer to layer, so that no straight profile is positive.
+TEST(Thickness, MoreThanStraightProfilesAddIsDoubted)
+{
+  std::vector<synthetic::TableRow> rows;
+  for (const auto& [y, phi, stress] :
+       {std::tuple{0.0, 0.2, 100.0}, {0.1, 0.5, 1.0}, {0.2, 0.8, 0.01}})
+    rows.push_back({0, 1, 10,
+                    synthetic::separate_sums(phi, (1 - phi) * stress * Tensor2::Identity(),
+                                             phi * stress * Tensor2::Identity()),
+                    y, y + 0.1});
+  auto table = synthetic::stress_table(rows);
+  table.header.emplace_back("layer", "0.1");
+  const auto fit = synthetic::fit(synthetic::read({table}), "size");
+  EXPECT_GT(std::abs(fit.of_thickness), 2.0 / 3);
+  EXPECT_TRUE(synthetic::holds(fit.doubt, "straight profiles add at most 2/3: B is wrong"))
+      << fit.doubt;
 }
 
 TEST(Thickness, KernelsAddTheirVarianceToThatOfTheLayer)

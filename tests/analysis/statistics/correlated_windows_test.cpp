@@ -232,8 +232,9 @@ TEST(DoubtOfWindows, IsVoicedWhereTheyAreCorrelatedForLong)
 
 TEST(DoubtOfWindows, IsVoicedWhereTheyAreFew)
 {
-  EXPECT_EQ(doubt_of_windows(Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1), {1}),
-            "one window is one observation, too few for an interval");
+  EXPECT_EQ(
+      doubt_of_windows(Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1), {1}),
+      "one window is one observation, too few for an interval; make more with a shorter --window");
   EXPECT_TRUE(doubt_of_windows(Ar1(0).series(11), Eigen::VectorXd::Ones(11), {11})
                   .starts_with("11 windows do not show how long they are correlated"));
 }
