@@ -193,6 +193,15 @@ std::string scan_table(const FitReport& report)
   return table.to_text();
 }
 
+std::string series_table(const FitReport& report)
+{
+  Table table;
+  table.header = header_of(report);
+  table.columns = columns_of(report.series.front());
+  for (const auto& row : report.series) table.rows.push_back(values_of(row));
+  return table.to_text();
+}
+
 Json row_object(const FitReport& report, const NumberRow& row)
 {
   Json object;
@@ -277,6 +286,7 @@ std::vector<std::string> doubts(const FitReport& report)
 
 std::string to_tsv(const FitReport& report)
 {
+  if (!report.series.empty()) return series_table(report);
   return report.scan ? scan_table(report) : rule_table(report);
 }
 

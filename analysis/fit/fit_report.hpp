@@ -34,6 +34,7 @@ struct FitReport {
   bool changes = false;              // B changes in time (FlowVerdict::b_changes)
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
+  std::vector<std::vector<Cell>> series;  // rows of --series (time_series.hpp); empty without it
   bool with_paper = false;  // true: also print the fits of Staron & Phillips (estimators.hpp)
   int digits = 0;           // significant digits of the short table; 0: three decimals
   std::size_t number_of_runs = 0, number_of_windows = 0;

@@ -30,21 +30,6 @@ double time_after(const FitData& data, double left_out)
   return begin + left_out * (end - begin);
 }
 
-/// A number per window that is constant in a steady flow, for tables without speeds. For contact
-/// stress it is |sigma_xy|/sigma_yy: the tangent of the slope in a steady chute, and less if the
-/// flow accelerates. For kinetic stress it is sigma_yy, which grows with the speed.
-Eigen::VectorXd stress_by_window(const FitData& data, const FitSettings& settings)
-{
-  Eigen::VectorXd shear = Eigen::VectorXd::Zero(index(number_of_windows(data.runs)));
-  Eigen::VectorXd normal = shear;
-  for (const auto& sample : data.samples) {
-    const auto stress = partial_stress(data.rows[sample.row], {}, settings.base).total;
-    shear[index(sample.window)] += sample.frames * stress(0, 1);
-    normal[index(sample.window)] += sample.frames * stress(1, 1);
-  }
-  return data.quantity == Quantity::kinetic ? normal : (shear.array() / normal.array()).abs();
-}
-
 /// Builds a FlowVerdict, part by part.
 class Judge {
  public:
@@ -105,7 +90,8 @@ class Judge {
 
   void judge_start()
   {
-    const Series motion(knows_speed() ? motion_.speed : stress_by_window(data_, settings_));
+    const Series motion(knows_speed() ? motion_.speed
+                                      : stress_ratio_of_windows(data_, settings_.base));
     double out = knows_speed() ? start_to_leave_out(motion, data_.runs, is_steady)
                                : seen_start(motion, data_.runs);
     if (out > 0.5) return say_unsteady(*change_of(motion, data_.runs));

@@ -4,6 +4,7 @@
 #include "analysis/fit/data_doubts.hpp"
 #include "analysis/fit/fit_pairs.hpp"
 #include "analysis/fit/flow_verdict.hpp"
+#include "analysis/fit/time_series.hpp"
 #include "analysis/fit/two_readings.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
@@ -94,6 +95,9 @@ po::options_description FitOptions::description()
   add("scan", text(scan, "p0:p1:dp"),
       "instead of B by rules, print B as function of the large grain's share p, from p0 to p1 in "
       "steps of dp");
+  add("series", po::bool_switch(&series),
+      "instead of B by rules, print a row for each window: B by each rule, phi_L, speed, and more; "
+      "scripts/figures/over-time.gp draws it");
   add("minus", po::value(&minus)->multitoken()->value_name("FILES"),
       "tables of the same runs read another way, such as with thinner layers: also print B minus "
       "theirs, over the same windows; put this option last");
@@ -123,6 +127,8 @@ void FitOptions::check(const po::variables_map& values)
   if (!fit.empty() && fit != fit_words[0]) throw UsageError(unknown_word("--fit", fit, fit_words));
   parse_rules(partition);
   if (!scan.empty()) parse_scan(scan);
+  if (series && (!scan.empty() || !minus.empty() || json))
+    throw UsageError("--series prints B of each window; leave out --scan, --minus and --json");
   if (!scan.empty() && !minus.empty())
     throw UsageError("--minus compares B by rules; leave out --scan, or --minus");
   if (quantity == "kinetic")
@@ -268,6 +274,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
     for (const auto& table : others) report.other_names.push_back(table.name);
   }
   if (!s.scan.empty()) report.scan = scan(info.name, data, parse_scan(s.scan), settings, s.quiet);
+  if (s.series) report.series = time_series(all, data, rules, settings);
   report.with_paper = s.fit == "paper";
   report.number_of_runs = data.runs.size();
   report.number_of_windows = number_of_windows(data.runs);

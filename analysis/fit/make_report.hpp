@@ -17,6 +17,7 @@ struct FitOptions {
   std::vector<std::string> partition;
   std::string component = "yy", quantity = "contact", thickness = "removed";
   std::string base, scan, ratio_range, pair, over, flows, fit;
+  bool series = false;
   std::vector<std::string> minus;
   TableOptions output;
   bool json = false, quiet = false, exponent = false;

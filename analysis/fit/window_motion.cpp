@@ -118,4 +118,16 @@ WindowMotion motion_of_windows(const std::vector<FitTable>& tables, const FitDat
   return motion;
 }
 
+Eigen::VectorXd stress_ratio_of_windows(const FitData& data, BasePart base)
+{
+  Eigen::VectorXd shear = Eigen::VectorXd::Zero(index(number_of_windows(data.runs)));
+  Eigen::VectorXd normal = shear;
+  for (const auto& sample : data.samples) {
+    const auto stress = partial_stress(data.rows[sample.row], {}, base).total;
+    shear[index(sample.window)] += sample.frames * stress(0, 1);
+    normal[index(sample.window)] += sample.frames * stress(1, 1);
+  }
+  return data.quantity == Quantity::kinetic ? normal : (shear.array() / normal.array()).abs();
+}
+
 }  // namespace grseg

@@ -25,4 +25,9 @@ struct WindowMotion {
 WindowMotion motion_of_windows(const std::vector<FitTable>& tables, const FitData& data,
                                BasePart base);
 
+/// A number per window, of the fitted layers, that is constant in a steady flow. For contact stress
+/// it is |sigma_xy|/sigma_yy: the tangent of the slope in a steady chute, and less if the flow
+/// accelerates. For kinetic stress it is sigma_yy (J), which grows with the speed.
+Eigen::VectorXd stress_ratio_of_windows(const FitData& data, BasePart base);
+
 }  // namespace grseg

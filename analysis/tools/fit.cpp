@@ -30,6 +30,7 @@ constexpr ToolInfo info{
     "  grseg-fit phi*/*.tsv                             B of each flow, then of all\n"
     "  grseg-fit phi*/*.tsv --over equal-flows          one B, with equal weight for each flow\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B as function of the large grain's share\n"
+    "  grseg-fit sums.tsv --series -o series.tsv        B and the motion of the bed over time\n"
     "  grseg-fit thick.tsv --minus thin.tsv             how much the thickness of layers moves B\n"
     "  grseg-fit kinetic.tsv --quantity kinetic         B of the kinetic stress\n"
     "  grseg-stress run.h5 | grseg-fit - --json         through a pipe, without a file\n"
@@ -91,7 +92,8 @@ int main(int argc, char** argv)
     auto report = make_report(info, options, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
     require_numbers(report);
-    const bool brief = options.output.prints_short() && !options.json && !report.scan;
+    const bool brief =
+        options.output.prints_short() && !options.json && !report.scan && report.series.empty();
     if (!options.quiet) remark(tables, report, !brief);
     report.digits = options.output.digits;
     write_table(options.output, options.json ? to_json(report) : to_tsv(report),

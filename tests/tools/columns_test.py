@@ -70,6 +70,7 @@ def tabulate(run, d, *window):
     collect("segregation", d, run, *window, "--summary")
     collect("check", d, run, "--physics", "--deep")
     collect("fit", d, f"stress0-{d}.tsv", "--heights", "all", "--scan", "0.5:0.8:0.1")
+    collect("fit", d, f"stress0-{d}.tsv", "--heights", "all", "--series")
 
 
 def compare_and_close():

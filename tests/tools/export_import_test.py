@@ -61,7 +61,8 @@ with tempfile.TemporaryDirectory() as folder:
         require_that_it_comes_back("synthetic.h5", "--accept-residual", "completeness=100")
     simulate("drum", "--drum-diameter", "24dS", "--duration", "0.6", "--frame-interval", "0.02")
     require_that_it_comes_back("sim.h5", driven=True)
-    simulate("shear", *SMALL, "--dimension", "3", "--width", "6dS")
+    # With these values no pair of the first frame overlaps without a contact.
+    simulate("shear", *SMALL, "--dimension", "3", "--width", "6dS", "--density", "1", "--plate-pressure", "2")
     require_that_it_comes_back("sim.h5", driven=True)
     for dimension, slope in ((2, -25), (2, 60), (3, -25), (3, 60), (3, -60)):
         simulate("chute", *SMALL, "--dimension", str(dimension), "--slope", str(slope), *(("--width", "8dS") if dimension == 3 else ()))

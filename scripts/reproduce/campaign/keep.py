@@ -18,7 +18,7 @@ WINDOW = {"micro": 5, "balance": 7.5}
 DIGITS = 3
 STRESS_DIGITS = {"stress": 2, "stress-random": 2, "kinetic": 2}
 # Columns that are archived besides KEYS, as regular expressions.
-STRESS = "(area|volume)_.|(A_SS|A_LL|M|Msize|A_Sb|A_Lb)_(xx|yy|zz)"
+STRESS = "(area|volume)_(.|v2)|(A_SS|A_LL|M|Msize|A_Sb|A_Lb)_(xx|yy|zz)"
 COLUMNS = {
     "stress": STRESS + "|(Mcp|F_Sb|F_Lb)_yy", "stress-random": STRESS, "kinetic": "mass_.|grains_.|K_._(xx|yy|zz)",
     "micro": STRESS + "|grains_.|ends_.|(n|sum_f|sum_fn)_..|base_f.|yL|yS|height",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/flow_verdict.hpp"
 
+#include "analysis/fit/time_series.hpp"
 #include "analysis/frames/composition.hpp"
 #include "tests/analysis/synthetic_fits.hpp"
 
@@ -134,6 +135,41 @@ TEST(FlowVerdict, SaysThatBFallsAndNeedsRunsRatherThanTime)
   EXPECT_TRUE(holds(text_of(verdict), "not steady: B falls from ")) << text_of(verdict);
   EXPECT_TRUE(holds(text_of(verdict), " such runs\n")) << text_of(verdict);
   EXPECT_FALSE(holds(text_of(verdict), " s of this flow")) << text_of(verdict);
+}
+
+// Two runs, each with windows of 1.25 s; u = 3 y, so that the mean square velocity is 9 times that of y.
+TEST(TimeSeries, HasARowForEachWindowOfEachRun)
+{
+  auto early = flowing(constant(3)), late = flowing(constant(3));
+  early.rows.resize(3 * compositions.size());
+  late.rows.resize(4 * compositions.size());
+  late.header.emplace_back("scene", "friction = 0.4");
+  const std::vector<Table> tables{early, late};
+  const auto read_tables = read_all(tables);
+  const auto data = select_fit_data(read_tables, Quantity::contact, {}, {{0, 1}});
+  const auto rows = time_series(read_tables, data, parse_rules({"size,half"}), {});
+  ASSERT_EQ(rows.size(), number_of_windows(data.runs));
+  EXPECT_EQ(columns_of(rows.front()),
+            (std::vector<std::string>{"run", "t0[s]", "t1[s]", "B_size", "B_half", "phi_L",
+                                      "y_L_minus_y_S[m]", "speed[m/s]", "stress_ratio"}));
+  double b = 0, weight = 0, square = 0, area = 0;
+  for (const auto& row : read_tables[0].rows) {
+    if (row.key.begin > 0) continue;
+    const double large = row.sums.content[1] / row.content(),
+                 y = (row.key.bottom + row.key.top) / 2;
+    const auto stress = partial_stress(row.sums, {}, BasePart::contact_point);
+    b += stress.large()(1, 1) / stress.total(1, 1) - large;
+    weight += large * (1 - large);
+    square += 9 * y * y * row.content();
+    area += row.content();
+  }
+  const auto first = values_of(rows.front());
+  EXPECT_EQ(first[0], 1);
+  EXPECT_EQ(first[2], 1.25);
+  EXPECT_NEAR(first[3], b / weight, 1e-12);
+  EXPECT_NEAR(first[5], 0.5, 1e-12);  // the mean of `compositions`
+  EXPECT_NEAR(first[7], std::sqrt(square / area), 1e-12);
+  EXPECT_NEAR(first[8], 0.41 / 1.1, 1e-12);  // any_tensor()
 }
 
 TEST(FlowVerdict, OfTablesWithoutVelocitiesSaysThatMotionIsUnknown)

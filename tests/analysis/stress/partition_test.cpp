@@ -155,7 +155,7 @@ TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
     ADD_FAILURE() << "the table was read";
   } catch (const FormatError& error) {
     EXPECT_STREQ(error.what(),
-                 "sums.tsv: no column 'HSS_xx'; make the table again with grseg-stress "
+                 "sums.tsv: a table of grseg-stress has no column 'HSS_xx'; make the table again with grseg-stress "
                  "--assign grain");
   }
 }
