@@ -18,7 +18,7 @@ definitions = runpy.run_path(f"{SOURCE}/scripts/columns")["definitions"]
 SAMPLE = f"{SOURCE}/data/sample/chute.h5"
 SPECIES = r"(?:S|L|c[123])"  # c1, c2, c3: of --classes 3
 MARKS = {"{k}": SPECIES, "{j}": SPECIES, "{pair}": "(?:SS|LS|LL|Sb|Lb)", "{pairs}": "(?:SS|LS|LL|Sb|Lb|all)", "{ab}": "[xyz][xyz]",
-         "{a}": "[xyz]", "{f}": "[xyzr]", "{rule}": "[a-z-]+", "{table}": r"[\w.-]+", "{x}": r"\w+", "[{unit}]": r"(?:\[[^]]*\])?",
+         "{a}": "[xyz]", "{f}": "[xyzr]", "{rule}": "[a-z-]+(?::[0-9.]+)?", "{table}": r"[\w.-]+", "{x}": r"\w+", "[{unit}]": r"(?:\[[^]]*\])?",
          "{term}": "(?:kinetic_push|kinetic_spread|inertia)", "{law}": "(?:closure|trewhela|trewhela_intruder|unchanged)"}
 printed = collections.defaultdict(set)  # (tool, dimension): names of columns, and of rows as "quantity NAME"
 

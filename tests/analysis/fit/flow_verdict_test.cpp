@@ -140,7 +140,7 @@ TEST(FlowVerdict, SaysThatBFallsAndNeedsRunsRatherThanTime)
 // Two runs, each with windows of 1.25 s; u = 3 y, so that the mean square velocity is 9 times that of y.
 TEST(TimeSeries, HasARowForEachWindowOfEachRun)
 {
-  auto early = flowing(constant(3)), late = flowing(constant(3));
+  auto early = flowing(constant(3)), late = flowing(constant(3), constant(0.01));
   early.rows.resize(3 * compositions.size());
   late.rows.resize(4 * compositions.size());
   late.header.emplace_back("scene", "friction = 0.4");
