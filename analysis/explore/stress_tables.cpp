@@ -68,10 +68,9 @@ StressTables make_tables(FrameLoop& loop, const std::string& command)
   for (const auto power : powers) {
     none.of.emplace_back(loop.layers(), Assignment::contact_point, power, std::nullopt,
                          species.size());
-    tables.push_back(
-        table_of(loop, power, command,
-                 joined(joined(content_columns(species, D), motion_columns(D)),
-                        none.of.back().columns(species))));
+    tables.push_back(table_of(loop, power, command,
+                              joined(joined(content_columns(species, D), motion_columns(D)),
+                                     none.of.back().columns(species))));
   }
   const Composition<D> no_grains(loop.layers(), GrainArea::clipped, std::nullopt, species.size());
   for (const auto& window : loop.windows()) {

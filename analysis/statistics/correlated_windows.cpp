@@ -200,7 +200,8 @@ std::string doubt_of_windows(const Eigen::VectorXd& noise, const Eigen::VectorXd
                              const RunLengths& runs)
 {
   const auto windows = number_of_windows(runs);
-  if (windows == 1) return "one window is one observation, too few for an interval; make more with a shorter --window";
+  if (windows == 1)
+    return "one window is one observation, too few for an interval; make more with a shorter --window";
   if (windows < fewest_windows)
     return fmt::format(
         "{} windows do not show how long they are correlated; make more with a shorter --window",

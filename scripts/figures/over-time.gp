@@ -10,15 +10,16 @@ set datafile missing NaN
 set xlabel "time (s)"
 set lmargin 11
 set multiplot layout 4,1
-time(t0, t1) = (t0 + t1) / 2
+middle(t0, t1) = (t0 + t1) / 2
 set ylabel "B"
 set xzeroaxis
-plot for [rule in rules] series using (time(column("t0[s]"), column("t1[s]"))):(column("B_".rule)) with points pt 7 ps 0.7 title rule
+set key outside top center horizontal
+plot for [rule in rules] series using (middle(column("t0[s]"), column("t1[s]"))):(column("B_".rule)) with points pt 7 ps 0.7 title rule
 unset xzeroaxis
 set ylabel "large above small grains (m)"
-plot series using (time(column("t0[s]"), column("t1[s]"))):(column("y_L_minus_y_S[m]")) with points pt 7 ps 0.7 lc rgb large notitle
+plot series using (middle(column("t0[s]"), column("t1[s]"))):(column("y_L_minus_y_S[m]")) with points pt 7 ps 0.7 lc rgb large notitle
 set ylabel "speed (m/s)"
-plot series using (time(column("t0[s]"), column("t1[s]"))):(column("speed[m/s]")) with points pt 7 ps 0.7 lc rgb small notitle
+plot series using (middle(column("t0[s]"), column("t1[s]"))):(column("speed[m/s]")) with points pt 7 ps 0.7 lc rgb small notitle
 set ylabel "|σ_{xy}|/σ_{yy}"
-plot series using (time(column("t0[s]"), column("t1[s]"))):(column("stress_ratio")) with points pt 7 ps 0.7 lc rgb "black" notitle
+plot series using (middle(column("t0[s]"), column("t1[s]"))):(column("stress_ratio")) with points pt 7 ps 0.7 lc rgb "black" notitle
 unset multiplot

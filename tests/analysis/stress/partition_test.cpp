@@ -154,9 +154,10 @@ TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
     const ContactSumsReader reader(table, {parse_rule("half")});
     ADD_FAILURE() << "the table was read";
   } catch (const FormatError& error) {
-    EXPECT_STREQ(error.what(),
-                 "sums.tsv: a table of grseg-stress has no column 'HSS_xx'; make the table again with grseg-stress "
-                 "--assign grain");
+    EXPECT_STREQ(
+        error.what(),
+        "sums.tsv: a table of grseg-stress has no column 'HSS_xx'; make the table again with grseg-stress "
+        "--assign grain");
   }
 }
 
