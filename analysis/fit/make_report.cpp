@@ -274,6 +274,8 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
     for (const auto& table : others) report.other_names.push_back(table.name);
   }
   if (!s.scan.empty()) report.scan = scan(info.name, data, parse_scan(s.scan), settings, s.quiet);
+  if (s.series && pairs.size() > 1)
+    throw UsageError("--series: B of a window is of two species; choose them with --pair");
   if (s.series) report.series = time_series(all, data, rules, settings);
   report.with_paper = s.fit == "paper";
   report.number_of_runs = data.runs.size();
@@ -291,8 +293,15 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
       report.trust.push_back(std::move(line));
   for (auto& doubt : doubts_of_tables(tables, all, data))
     report.doubts_of_tables.push_back(std::move(doubt));
-  auto verdict = verdict_on(all, data, fit_rule(data, rules.front(), settings), settings);
+  // With several pairs of species the verdict is on the first.
+  const auto of_pair =
+      pairs.size() == 1 ? data : select_fit_data(all, report.quantity, s.filters, {pairs.front()});
+  auto verdict = verdict_on(all, of_pair, fit_rule(of_pair, rules.front(), settings), settings);
   report.verdict = std::move(verdict.sentences);
+  if (pairs.size() > 1)
+    report.verdict.push_back(fmt::format("B of the verdict is of {} and {}; --pair chooses others",
+                                         report.species[pairs.front().smaller].name,
+                                         report.species[pairs.front().larger].name));
   report.changes = verdict.b_changes;
   for (auto& doubt : verdict.doubts) report.doubts_of_tables.push_back(std::move(doubt));
   report.history = header_values(tables, "history");

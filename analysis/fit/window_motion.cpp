@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/window_motion.hpp"
 
+#include "formats/core/text.hpp"
+
 #include <cmath>
 #include <map>
 #include <optional>

@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -71,7 +71,7 @@ export function table(columns, rows, caption) {
 /** Fills a list with sentences, without full stops, and hides it if there are none. */
 export function listOf(list, sentences) {
   list.hidden = !sentences.length;
-  list.replaceChildren(...sentences.map((text) => element("li", {}, rounded(`${text}.`))));
+  list.replaceChildren(...sentences.map((text) => element("li", {}, rounded(`${text}.`).replace(/\+-/g, "±"))));
   return list;
 }
 
