@@ -1277,7 +1277,7 @@ def _parse_rule(rule):
     raise ValueError(f"{rule!r} is not a rule: size, contact-point, half, drop, uniform:P (0 to 1), power:Q or a function")
 
 
-# Arguments that a rule of one's own may have: those that depend on the species alone, and those of a contact.
+# Arguments that a function as rule may have: numbers of the two species, and numbers of a contact.
 _OF_SPECIES, _OF_CONTACTS = ("d_large", "d_small"), ("r_large", "r_small", "gap", "force", "branch")
 
 

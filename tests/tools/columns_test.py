@@ -49,7 +49,7 @@ def note(tool, dimension, text):
 
 
 def tabulate(run, d, *window):
-    """Tables of every tool that reads runs, and of those that read its tables."""
+    """Makes the tables of all tools: first from runs, then from other tables."""
     sums = "--assign", "grain", "--partition", "power:2"
     for classes in (), ("--classes", "3"):
         name = f"stress{len(classes)}-{d}.tsv"
