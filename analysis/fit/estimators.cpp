@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/estimators.hpp"
 
-#include "analysis/statistics/least_squares.hpp"
+#include "analysis/statistics/composition_fit.hpp"
 #include "analysis/stress/partition_rule.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -83,51 +83,49 @@ bool spread_out(double w, double wX, double wXX)
   return wXX * w - wX * wX > 1e-12 * w * w;
 }
 
-/// Calls at(point, weight x noise of `value`) for every point.
-template <class Value, class Weight, class At>
-void for_noise(const std::vector<FitPoint>& points, const Value& value, const Weight& weight,
-               const At& at)
+/// Sets WindowSums::noise and the parts that composition takes, of these points.
+void add_noise(WindowSums& windows, const std::vector<FitPoint>& points)
 {
-  if (points.empty()) return;
-  const Eigen::VectorXd weights = numbers_of(points, weight);
-  const Eigen::VectorXd noise = composition_noise(numbers_of(points, &FitPoint::phi_large),
-                                                  numbers_of(points, value), weights);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    at(points[k], weights[index(k)] * noise[index(k)]);
-}
-
-/// WindowSums::noise of these points.
-Eigen::MatrixXd window_noise(const std::vector<FitPoint>& points, Eigen::Index windows)
-{
+  const auto count = windows.sums.rows();
+  windows.noise = Eigen::MatrixXd::Zero(count, Sum::number_of_sums);
+  // Calls at(point, weight x noise of `value`) for every point of `own`.
+  const auto for_noise = [&](const std::vector<FitPoint>& own, const auto& value,
+                             const auto& weight, const auto& at) -> Eigen::MatrixXd {
+    if (own.empty()) return {};
+    const Eigen::VectorXd weights = numbers_of(own, weight);
+    const CompositionFit fit(numbers_of(own, &FitPoint::phi_large), weights);
+    const Eigen::VectorXd noise = weights.cwiseProduct(fit.noise(numbers_of(own, value)));
+    for (std::size_t k = 0; k < own.size(); ++k)
+      at(own[k], windows.noise.row(index(own[k].window)), noise[index(k)]);
+    return fit.taken(listed(own, &FitPoint::window), static_cast<std::size_t>(count));
+  };
   std::vector<FitPoint> with_logarithm, with_stress;
   for (const auto& point : points) {
     if (point.has_logarithm()) with_logarithm.push_back(point);
     if (point.total > 0) with_stress.push_back(point);
   }
-  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(windows, Sum::number_of_sums);
-  for_noise(
+  windows.taken_of_logarithms = for_noise(
       with_logarithm,
       [](const FitPoint& point) { return std::log(point.small / point.large / point.ratio()); },
       &FitPoint::weight,
-      [&](const FitPoint& point, double part) {
-        noise(index(point.window), Sum::wY) += part;
-        noise(index(point.window), Sum::wXY) += part * std::log(point.ratio());
+      [](const FitPoint& point, auto row, double part) {
+        row[Sum::wY] += part;
+        row[Sum::wXY] += part * std::log(point.ratio());
       });
-  for_noise(
+  windows.taken = for_noise(
       with_stress, [](const FitPoint& point) { return point.excess() / point.product(); },
       [](const FitPoint& point) { return point.frames * point.product(); },
-      [&](const FitPoint& point, double part) { noise(index(point.window), Sum::fD) += part; });
-  return noise;
+      [](const FitPoint&, auto row, double part) { row[Sum::fD] += part; });
 }
 
 }  // namespace
 
 WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& runs)
 {
-  const auto windows = index(number_of_windows(runs));
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(windows, Sum::number_of_sums);
+  WindowSums windows;
+  windows.sums = Eigen::MatrixXd::Zero(index(number_of_windows(runs)), Sum::number_of_sums);
   for (const auto& point : points) {
-    auto row = sums.row(index(point.window));
+    auto row = windows.sums.row(index(point.window));
     if (point.total > 0) {
       row[Sum::fD] += point.frames * point.excess();
       row[Sum::fQ] += point.frames * point.product();
@@ -141,7 +139,8 @@ WindowSums window_sums(const std::vector<FitPoint>& points, const RunLengths& ru
     row[Sum::wXX] += w * ln_x * ln_x;
     row[Sum::wXY] += w * ln_x * ln_y;
   }
-  return {std::move(sums), window_noise(points, windows)};
+  add_noise(windows, points);
+  return windows;
 }
 
 Estimators estimators_from_sums(const Eigen::RowVectorXd& total)
@@ -190,8 +189,14 @@ Influence influence_on(double Estimators::*place, const WindowSums& windows)
   return {of_sums.col(column_of(place)), of_noise.col(column_of(place))};
 }
 
-Errors::Errors(const FitData& data, const Eigen::VectorXd& weight)
-    : runs_(data.runs), weight_(weight)
+Errors::Errors(const FitData& data, const WindowSums& windows, double Estimators::*place)
+    : Errors(data, place == &Estimators::B ? windows.weight() : windows.weight_of_logarithms(),
+             place == &Estimators::B ? windows.taken : windows.taken_of_logarithms)
+{
+}
+
+Errors::Errors(const FitData& data, const Eigen::VectorXd& weight, const Eigen::MatrixXd& taken)
+    : runs_(data.runs), weight_(weight), taken_(taken)
 {
   std::map<std::size_t, std::vector<Run>> flows;
   Eigen::Index first = 0;
@@ -215,14 +220,15 @@ StandardError Errors::of_flow(const Flow& flow, const Influence& influence) cons
     return deviation_of_runs(of_runs(flow.runs, influence.sums), flow.weight).error();
   const auto [first, windows] = flow.runs[0];
   return deviation_of_windows(influence.noise.segment(first, windows),
-                              weight_.segment(first, windows), {static_cast<std::size_t>(windows)})
+                              weight_.segment(first, windows), {static_cast<std::size_t>(windows)},
+                              taken_.rows() == 0 ? taken_ : taken_.middleRows(first, windows))
       .error();
 }
 
 StandardError Errors::over(Population population, const Influence& influence) const
 {
   if (population == Population::windows)
-    return deviation_of_windows(influence.noise, weight_, runs_).error();
+    return deviation_of_windows(influence.noise, weight_, runs_, taken_).error();
   if (population == Population::compositions)
     return deviation_of_runs(by_run(influence.noise, runs_), by_run(weight_, runs_)).error();
   return added(listed(flows_, [&](const Flow& flow) { return of_flow(flow, influence); }));

@@ -66,6 +66,9 @@ struct WindowSums {
   /// Numbers of the columns; X stands for ln x and Y for ln y.
   enum Sum : Eigen::Index { fD, fQ, w, wX, wY, wXX, wXY, number_of_sums };
   Eigen::MatrixXd sums, noise;
+  /// Parts that the fit to composition takes (CompositionFit::taken) from points that count in B, and from
+  /// points that have a logarithm.
+  Eigen::MatrixXd taken, taken_of_logarithms;
 
   /// Sums over all windows, one per column.
   Eigen::RowVectorXd total() const { return sums.colwise().sum(); }
@@ -99,8 +102,11 @@ Influence influence_on(double Estimators::*place, const WindowSums& windows);
 /// Errors of statistics whose deviation is the sum of the windows' influences.
 class Errors {
  public:
-  /// `weight`: weight of each window in the statistic.
-  Errors(const FitData& data, const Eigen::VectorXd& weight);
+  /// `weight`: weight of each window in the statistic; `taken`: WindowSums.
+  Errors(const FitData& data, const Eigen::VectorXd& weight, const Eigen::MatrixXd& taken = {});
+  /// Errors of an estimator, or of another ratio with its weights.
+  Errors(const FitData& data, const WindowSums& windows,
+         double Estimators::*place = &Estimators::B);
 
   /// Error over a population. Over windows it follows from their noise; over compositions from the
   /// noise of whole runs, whatever their flow; otherwise it is the sum of the errors of the flows,
@@ -127,6 +133,7 @@ class Errors {
 
   RunLengths runs_;
   Eigen::VectorXd weight_;  // weight of each window
+  Eigen::MatrixXd taken_;
   std::vector<Flow> flows_;
 };
 

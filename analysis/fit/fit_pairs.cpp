@@ -47,8 +47,7 @@ Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
   if (points.empty()) return {a};
   const auto windows = window_sums(points, data.runs);
   const auto over = resolved(settings.over, data.runs.size(), data.number_of_flows());
-  return {a,
-          Errors(data, windows.weight_of_logarithms()).over(over, influence_on(exponent, windows))};
+  return {a, Errors(data, windows, exponent).over(over, influence_on(exponent, windows))};
 }
 
 }  // namespace

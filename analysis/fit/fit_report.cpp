@@ -243,10 +243,11 @@ std::vector<std::pair<Population, std::string>> estimands(const FitReport& repor
   const auto flows = static_cast<std::size_t>(
       std::ranges::count_if(report.shares, [](double share) { return share > 0; }));
   return listed(used, [&](Population over) {
-    return std::pair(over, over == Population::windows && report.changes
-                               ? "B of these runs over these times, in which it changes; from the "
-                                 "scatter of windows inside runs"
-                               : estimand_words(over, flows));
+    return std::pair(
+        over, over == Population::windows && report.changes
+                  ? "B of these runs over these times alone, since the flow changes; from the "
+                    "scatter of windows inside runs"
+                  : estimand_words(over, flows));
   });
 }
 

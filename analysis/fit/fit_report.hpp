@@ -31,7 +31,7 @@ struct FitReport {
       shared_runs;                            // for each run with several tables, their names
   std::vector<std::string> doubts_of_tables;  // warnings about the tables (data_doubts.hpp)
   std::vector<std::string> verdict;  // how the grains move in these times (flow_verdict.hpp)
-  bool changes = false;              // B changes in time (FlowVerdict::b_changes)
+  bool changes = false;              // FlowVerdict::changes
   std::vector<RuleFit> rules;
   std::optional<PartitionScan> scan;
   std::vector<std::vector<Cell>> series;  // rows of --series (time_series.hpp); empty without it

@@ -146,11 +146,12 @@ class Judge {
   void judge_change()
   {
     const auto moves = separation();
+    if (!moves.empty()) verdict_.changes = true;
     const auto b = change_of({sums_.excess(), sums_.weight()}, data_.runs);
     if (!b->is_known())
       return say("too few windows to tell whether B changes" + (moves.empty() ? "" : "; " + moves));
     if (b->is_seen()) {
-      verdict_.b_changes = true;
+      verdict_.changes = true;
       const auto how = fmt::format(
           "B {} from {:.3f} in the first third of the time to {:.3f} in the "
           "last",
@@ -184,7 +185,7 @@ class Judge {
         fmt::format("{:.0f} such runs", std::ceil(times * static_cast<double>(data_.runs.size())));
     say(fmt::format(
         "B +- {:g} needs {}", wanted_half_width,
-        over_runs || verdict_.b_changes
+        over_runs || verdict_.changes
             ? of_runs
             : fmt::format("about {:.2g} s of this flow, or {}", times * seconds, of_runs)));
   }

@@ -17,7 +17,8 @@ struct FlowVerdict {
   std::vector<std::string> sentences;  // without full stop; a sentence each on motion, steadiness,
                                        // change of B, and the time that a narrower interval needs
   std::vector<std::string> doubts;     // conditions under which no steady flow has this B
-  bool b_changes = false;              // B changes in time: its interval is over these times alone
+  bool changes =
+      false;  // B changes in time, or grains segregate: intervals are over these times alone
 };
 
 /// Inertial number below which a bed rests or creeps (GDR MiDi, Eur. Phys. J. E 14, 341, 2004).

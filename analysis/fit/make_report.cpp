@@ -302,7 +302,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
     report.verdict.push_back(fmt::format("B of the verdict is of {} and {}; --pair chooses others",
                                          report.species[pairs.front().smaller].name,
                                          report.species[pairs.front().larger].name));
-  report.changes = verdict.b_changes;
+  report.changes = verdict.changes;
   for (auto& doubt : verdict.doubts) report.doubts_of_tables.push_back(std::move(doubt));
   report.history = header_values(tables, "history");
   return report;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
 
-#include "analysis/statistics/least_squares.hpp"
+#include "analysis/statistics/composition_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,8 @@ void remove_b(RuleFit& fit)
 /// allow.
 void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows)
 {
-  const Errors of_b(data, windows.weight()), of_logarithms(data, windows.weight_of_logarithms());
   for (const auto& [name, place] : estimator_columns) {
-    const auto& errors = place == &Estimators::B ? of_b : of_logarithms;
+    const Errors errors(data, windows, place);
     const auto influence = influence_on(place, windows);
     set_error(fit, place, errors.over(fit.over, influence));
     if (place != &Estimators::B) continue;
@@ -37,14 +36,15 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows)
 }
 
 /// Degrees of freedom of the differences between flows that the regression on composition
-/// (least_squares.hpp) removed from the noise.
+/// (composition_fit.hpp) removed from the noise.
 double degrees_taken_by_composition(const FitData& data)
 {
   const auto flow_of_window = data.flows_of_windows();
   const auto flow = listed(
       data.samples, [&](const LayerSample& sample) { return flow_of_window[sample.window]; });
-  return degrees_of_composition(numbers_of(data.samples, &LayerSample::phi_large),
-                                numbers_of(data.samples, &LayerSample::weight_in_b), flow);
+  return CompositionFit(numbers_of(data.samples, &LayerSample::phi_large),
+                        numbers_of(data.samples, &LayerSample::weight_in_b))
+      .degrees(flow);
 }
 
 /// doubt_of_runs, with what these very runs tell.
@@ -64,7 +64,7 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
     return doubt_of_windows(windows.excess_noise(), weight, data.runs);
   const auto flows = data.number_of_flows();
   if (flows == 1) return doubt_of_few_runs(by_run(weight, data.runs));
-  const Errors errors(data, weight);
+  const Errors errors(data, windows);
   if (fit.over == Population::compositions) {
     const double chance = errors.chance_of_likeness(influence_on(&Estimators::B, windows).noise,
                                                     degrees_taken_by_composition(data));
@@ -207,8 +207,7 @@ Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& window
 {
   constexpr auto b = &Estimators::B;
   const auto influence = influence_on(b, windows) - influence_on(b, window_sums(others, data.runs));
-  return {fit.value.B - estimators_of(others).B,
-          Errors(data, windows.weight()).over(fit.over, influence)};
+  return {fit.value.B - estimators_of(others).B, Errors(data, windows).over(fit.over, influence)};
 }
 
 namespace {
@@ -264,7 +263,7 @@ LineOverShare line_over_share(const FitData& data, const FitSettings& settings, 
   const auto at = at_share(data, zero, settings);
   const Eigen::VectorXd weight = at.value.weight();
   const double change = at.derivative.excess().sum(), slope = change / weight.sum();
-  const Errors errors(data, weight);
+  const Errors errors(data, at.value);
   return {
       {zero, errors.over(over, {at.value.excess() / -change, at.value.excess_noise() / -change})},
       {slope, errors.over(over, {at.derivative.excess() / weight.sum(),

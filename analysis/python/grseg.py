@@ -25,9 +25,12 @@ import dataclasses
 import functools
 import inspect
 import itertools
+import json
 import math
+import os
 import pathlib
 import re
+import subprocess
 import types
 import zlib
 from numbers import Real
@@ -36,7 +39,7 @@ import h5py
 import numpy as np
 
 __all__ = ["Run", "Frame", "Contacts", "Species", "Window", "Table", "Points", "Fit", "Error",
-           "read_table", "partial_stress", "fit"]
+           "read_table", "partial_stress", "fit", "verdict"]
 
 
 class Error(Exception):
@@ -1724,18 +1727,20 @@ class Points:
         return np.array([number[span] for span in spans])
 
     def _noise(self, excess):
-        """By window: noise of the sum of frames * excess, the part that composition does not explain; weight in B."""
+        """By window: noise of the sum of frames * excess, the part that composition does not explain; weight in B; and
+        the part that composition takes."""
         ok = np.isfinite(excess)
         weight, window, count = self._b_weight[ok], self._observation[ok], self._observation.max() + 1
-        noise = weight * _composition_noise(self.phi_large[ok], self.frames[ok] * excess[ok] / weight, weight)
-        return np.bincount(window, noise, count), np.bincount(window, weight, count)
+        fit = _CompositionFit(self.phi_large[ok], weight)
+        noise = weight * fit.noise(self.frames[ok] * excess[ok] / weight)
+        return np.bincount(window, noise, count), np.bincount(window, weight, count), fit.taken(window, count)
 
     def _interval(self, value, excess, per):
         """Interval and degrees of freedom of a number to which each point contributes frames * excess / per."""
         error, degrees, ok = math.nan, math.nan, np.isfinite(excess)
         if self.over == "windows" and ok.any():
-            noise, weight = self._noise(excess)
-            error, degrees = _error_over_windows(noise / per, weight)
+            noise, weight, taken = self._noise(excess)
+            error, degrees = _error_over_windows(noise / per, weight, taken)
         elif self.over == "runs":
             parts = np.bincount(self.run[ok], (self.frames * excess)[ok]) / per
             error, degrees = _error_over_runs(parts, np.bincount(self.run[ok], self._b_weight[ok]))
@@ -1783,6 +1788,27 @@ def fit(source, rule="size", layer=None, window=None, stride=None, begin=None, e
     return Points(tables, **times, **selection).fit(rule)
 
 
+def verdict(tables, *options):
+    """Verdict and doubts on the flow of tables, two lists of sentences: if it flows, since when it is steady, if B
+    changes, and how long a run gives B +- 0.01. They come from grseg-fit, which must be installed.
+
+        sentences, doubts = grseg.verdict("stress.tsv", "--begin", "5")
+
+    tables     path of a table of grseg-stress or grseg-kinetic, or a list of paths
+    options    options of grseg-fit, each word by itself
+    """
+    paths = [tables] if isinstance(tables, (str, os.PathLike)) else tables
+    try:
+        run = subprocess.run(["grseg-fit", *map(os.fspath, paths), *map(str, options), "--json", "--quiet"],
+                             capture_output=True, text=True)
+    except FileNotFoundError:
+        raise Error("grseg-fit: not found; install the programs of grseg, or add their folder to PATH") from None
+    if run.returncode:
+        raise Error(run.stderr.strip())
+    result = json.loads(run.stdout)
+    return result["verdict"], result["doubts"]
+
+
 # -------------------------------------------------------------------------------------- intervals
 
 def _is_again(tables, last, window):
@@ -1804,12 +1830,31 @@ def _is_again(tables, last, window):
     return any(columns.values())
 
 
-def _composition_noise(phi, value, weight):
-    """`value` minus its fit by a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/least_squares.hpp)."""
-    if len(value) < 30:
-        return value - value @ weight / weight.sum()
-    basis, root = np.column_stack([np.ones_like(phi), np.log((1 - phi) / phi), phi]), np.sqrt(weight)
-    return value - basis @ np.linalg.lstsq(root[:, None] * basis, root * value, rcond=1e-6)[0]
+class _CompositionFit:
+    """The weighted fit a + b ln(phi_S/phi_L) + c phi_L (analysis/statistics/composition_fit.hpp)."""
+
+    def __init__(self, phi, weight):
+        self.weight, self.strength = weight, min(max((len(phi) - 10) / 20, 0), 1)
+        terms = []
+        for term in (np.log((1 - phi) / phi), phi):
+            term = term - term @ weight / weight.sum()
+            for _ in range(2):
+                for other in terms:
+                    term = term - (weight @ (term * other)) * other
+            norm = math.sqrt(weight @ term**2)
+            if norm > 1e-6 * math.sqrt(weight.sum()):
+                terms.append(term / norm)
+        self.terms = np.array(terms).reshape(-1, len(phi)).T
+
+    def noise(self, value):
+        """`value` minus its fit."""
+        rest = value - value @ self.weight / self.weight.sum()
+        return rest - self.strength * self.terms @ (self.terms.T @ (self.weight * rest))
+
+    def taken(self, window, count):
+        """The part that the fit takes of a number by window."""
+        sums = [np.bincount(window, self.weight * term, count) for term in self.terms.T]
+        return math.sqrt(self.strength * (2 - self.strength)) * np.array(sums).reshape(-1, count).T
 
 
 def _neighbours(series):
@@ -1820,19 +1865,26 @@ def _neighbours(series):
     return max(0.0, min((n * (rest[:-1] @ rest[1:]) / (rest @ rest) + 1) / (n - 3), 1 - 2 / n))
 
 
-def _error_over_windows(parts, weight):
+def _error_over_windows(parts, weight, taken):
     """Standard error and degrees of freedom of a sum over the windows of one run, from slow cosine waves
     (deviation_of_windows in analysis/statistics/correlated_windows.hpp)."""
     n, whole, rho = len(parts), weight.sum(), _neighbours(parts)
     if n < 2:
         return math.nan, 0
-    number = min(n - 1, max(2, (whole**2 / (weight**2).sum())**(2 / 3) / 4))
-    wave = np.arange(1, math.ceil(number) + 1)
-    share = np.minimum(1, number + 1 - wave) / number
-    phase = math.pi * (np.cumsum(weight) - weight / 2) / whole
-    sums = np.cos(np.outer(wave, phase)) @ (parts - parts.sum() / whole * weight)
-    kept = share @ ((1 - rho)**2 / (1 - 2 * rho * np.cos(math.pi * wave / n) + rho**2))
-    return math.sqrt(2 * (share @ sums**2) / kept), 1 / (share @ share)
+    wanted, phase = max(2, (whole**2 / (weight**2).sum())**(2 / 3) / 4), math.pi * (np.cumsum(weight) - weight / 2) / whole
+    rest, left, of_left, squares, kept = parts - parts.sum() / whole * weight, 0.0, 0.0, 0.0, 0.0
+    for number in range(1, n):
+        wave = np.cos(number * phase)
+        about = wave - weight @ wave / whole
+        part = max(1e-3, 1 - ((taken.T @ about)**2).sum() / (weight @ about**2))
+        count = min(1, (wanted - left) / part)
+        left += count * part
+        of_left += (count * part)**2
+        squares += count * (rest @ wave)**2
+        kept += count * part * (1 - rho)**2 / (1 - 2 * rho * math.cos(math.pi * number / n) + rho**2)
+        if left >= wanted:
+            break
+    return math.sqrt(2 * squares / kept), left**2 / of_left
 
 
 def _error_over_runs(parts, weight):

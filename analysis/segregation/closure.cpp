@@ -2,8 +2,8 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/frames/sums.hpp"
+#include "analysis/statistics/composition_fit.hpp"
 #include "analysis/statistics/correlated_windows.hpp"
-#include "analysis/statistics/least_squares.hpp"
 
 #include <fmt/format.h>
 
@@ -25,13 +25,14 @@ struct Linear {
   double value = no_number;
   Eigen::VectorXd influence;  // contribution of each window's noise to the number
   Eigen::VectorXd weight;     // weight of each window in the number
+  Eigen::MatrixXd taken{};    // part that a fit to composition takes (CompositionFit::taken)
 };
 
 /// A function of several numbers, with its value, and its derivative by each number.
 Linear combined(double value, const std::vector<std::pair<double, const Linear*>>& parts)
 {
   Linear of{value, Eigen::VectorXd::Zero(parts.front().second->influence.size()),
-            parts.front().second->weight};
+            parts.front().second->weight, parts.front().second->taken};
   for (const auto& [derivative, part] : parts) of.influence += derivative * part->influence;
   return of;
 }
@@ -107,7 +108,7 @@ class Regressions {
   }
 
   /// sum of weight x value/sum of weight, over points with a finite value and a positive weight.
-  /// The part that composition explains is not counted as noise (least_squares.hpp).
+  /// The part that composition explains is not counted as noise (composition_fit.hpp).
   template <class Value, class Weight>
   Linear mean(const Value& value, const Weight& weight) const
   {
@@ -119,14 +120,15 @@ class Regressions {
     };
     if (used.empty()) return none(no_number);
     const Eigen::VectorXd values = list(value), weights = list(weight);
-    const Eigen::VectorXd noise =
-        composition_noise(numbers_of(used, &ClosurePoint::phi_large), values, weights);
+    const CompositionFit fit(numbers_of(used, &ClosurePoint::phi_large), weights);
+    const Eigen::VectorXd noise = fit.noise(values);
     auto all = none(weights.dot(values) / weights.sum());
     for (std::size_t k = 0; k < used.size(); ++k) {
       const auto point = index(k), window = index(used[k]->window);
       all.influence[window] += weights[point] * noise[point] / weights.sum();
       all.weight[window] += weights[point];
     }
+    all.taken = fit.taken(listed(used, &ClosurePoint::window), static_cast<std::size_t>(windows_));
     return all;
   }
 
@@ -183,7 +185,7 @@ class Report {
   {
     return runs_.size() > 1
                ? deviation_of_runs(by_run(of.influence, runs_), by_run(of.weight, runs_))
-               : deviation_of_windows(of.influence, of.weight, runs_);
+               : deviation_of_windows(of.influence, of.weight, runs_, of.taken);
   }
 
   RunLengths runs_;

@@ -88,55 +88,72 @@ class Correlation {
 /// The waves of one run.
 class Waves {
  public:
-  Waves(const Eigen::VectorXd& weight, std::size_t runs)
-      : number_(std::min(
-            static_cast<double>(weight.size() - 1),
-            std::max(runs == 1 ? 2.0 : 1.0, std::pow(effective_number(weight), 2.0 / 3) / 4)))
+  /// `taken`: rows of the run, or no columns (deviation_of_windows).
+  Waves(const Eigen::VectorXd& weight, std::size_t runs, const Eigen::MatrixXd& taken)
+      : weight_(weight), phase_(std::numbers::pi * middles(weight))
   {
+    const double wanted =
+        std::max(runs == 1 ? 2.0 : 1.0, std::pow(effective_number(weight), 2.0 / 3) / 4);
+    for (Eigen::Index j = 1; j < weight.size() && left_ < wanted; ++j) {
+      left_part_.push_back(left_of(j, taken));
+      count_.push_back(std::min(1.0, (wanted - left_) / left_part_.back()));
+      left_ += count_.back() * left_part_.back();
+    }
   }
 
-  Eigen::Index count() const { return static_cast<Eigen::Index>(std::ceil(number_)); }
-  /// Weight of wave j = 1, 2, ... in their mean.
-  double weight(Eigen::Index j) const
-  {
-    return std::min(1.0, number_ + 1 - static_cast<double>(j)) / number_;
-  }
-  /// Mean of of(j) over the waves.
-  template <class Of>
-  double mean(const Of& of) const
-  {
-    double sum = 0;
-    for (Eigen::Index j = 1; j <= count(); ++j) sum += weight(j) * of(j);
-    return sum;
-  }
+  std::size_t number() const { return count_.size(); }
+  /// Wave j = 1, 2, ..., number() at each window.
+  Eigen::ArrayXd wave(std::size_t j) const { return (static_cast<double>(j) * phase_).cos(); }
+  /// Weight of wave j: 1, or less for the last one.
+  double count(std::size_t j) const { return count_[j - 1]; }
   double degrees() const
   {
-    return 1 / mean([this](Eigen::Index j) { return weight(j); });
+    double squares = 0;
+    for (std::size_t j = 1; j <= number(); ++j) squares += std::pow(counted(j), 2);
+    return left_ * left_ / squares;
   }
+  /// Sum of the parts that the waves keep of a slow wave's variance, if the noise before the fit to
+  /// composition is an AR(1) series with the neighbours' correlation rho.
+  double kept(double rho) const
+  {
+    double sum = 0;
+    for (std::size_t j = 1; j <= number(); ++j) {
+      const double phase =
+          std::numbers::pi * static_cast<double>(j) / static_cast<double>(weight_.size());
+      sum += counted(j) * (1 - rho) * (1 - rho) / (1 - 2 * rho * std::cos(phase) + rho * rho);
+    }
+    return sum;
+  }
+  /// The part of a slow wave's variance that the waves keep on average.
+  double mean_kept(double rho) const { return kept(rho) / left_; }
 
  private:
-  double number_;
+  double counted(std::size_t j) const { return count_[j - 1] * left_part_[j - 1]; }
+  /// Middle of each window as the fraction of the weight before it.
+  static Eigen::ArrayXd middles(const Eigen::VectorXd& weight)
+  {
+    Eigen::ArrayXd middle(weight.size());
+    double before = 0;
+    for (Eigen::Index k = 0; k < weight.size(); before += weight[k++])
+      middle[k] = before + weight[k] / 2;
+    return middle / before;
+  }
+  /// Part of wave j that the fit to composition leaves.
+  double left_of(Eigen::Index j, const Eigen::MatrixXd& taken) const
+  {
+    if (taken.cols() == 0) return 1;
+    const Eigen::VectorXd cosine = wave(static_cast<std::size_t>(j));
+    const Eigen::VectorXd rest = cosine.array() - weight_.dot(cosine) / weight_.sum();
+    const double all = weight_.dot(rest.cwiseAbs2());
+    return std::max(least_left, 1 - (taken.transpose() * rest).squaredNorm() / all);
+  }
+
+  static constexpr double least_left = 1e-3;  // so that a wave that is gone does not count
+  Eigen::VectorXd weight_;
+  Eigen::ArrayXd phase_;
+  std::vector<double> count_, left_part_;
+  double left_ = 0;
 };
-
-/// Middle of each window as the fraction of the weight before it.
-Eigen::ArrayXd middles(const Eigen::VectorXd& weight)
-{
-  Eigen::ArrayXd middle(weight.size());
-  double before = 0;
-  for (Eigen::Index k = 0; k < weight.size(); before += weight[k++])
-    middle[k] = before + weight[k] / 2;
-  return middle / before;
-}
-
-/// Variance of the waves of a run of an AR(1) series with the neighbours' correlation rho, over the
-/// variance of slow waves.
-double kept_of_ar1(const Waves& waves, Eigen::Index windows, double rho)
-{
-  return waves.mean([=](Eigen::Index j) {
-    const double wave = std::numbers::pi * static_cast<double>(j) / static_cast<double>(windows);
-    return (1 - rho) * (1 - rho) / (1 - 2 * rho * std::cos(wave) + rho * rho);
-  });
-}
 
 }  // namespace
 
@@ -155,7 +172,7 @@ Eigen::VectorXd by_run(const Eigen::VectorXd& of_windows, const RunLengths& runs
 }
 
 Deviation deviation_of_windows(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
-                               const RunLengths& runs)
+                               const RunLengths& runs, const Eigen::MatrixXd& taken)
 {
   std::vector<double> parts;
   double whole = 0, squares = 0;
@@ -165,12 +182,10 @@ Deviation deviation_of_windows(const Eigen::VectorXd& influence, const Eigen::Ve
     if (count < 2 || !(own.sum() > 0)) return;
     const Eigen::ArrayXd noise =
         influence.segment(first, count) - influence.segment(first, count).sum() / own.sum() * own;
-    const Eigen::ArrayXd phase = std::numbers::pi * middles(own);
-    const Waves waves(own, runs.size());
-    const double kept = kept_of_ar1(waves, count, rho);
-    for (Eigen::Index j = 1; j <= waves.count(); ++j)
-      parts.push_back(std::sqrt(2 * waves.weight(j) / kept) *
-                      (noise * (static_cast<double>(j) * phase).cos()).sum());
+    const Waves waves(own, runs.size(), taken.rows() == 0 ? taken : taken.middleRows(first, count));
+    const double kept = waves.kept(rho);
+    for (std::size_t j = 1; j <= waves.number(); ++j)
+      parts.push_back(std::sqrt(2 * waves.count(j) / kept) * (noise * waves.wave(j)).sum());
     whole += own.sum();
     squares += own.sum() * own.sum() / waves.degrees();
   });
@@ -210,7 +225,7 @@ std::string doubt_of_windows(const Eigen::VectorXd& noise, const Eigen::VectorXd
   double kept = 0;
   for_runs(runs, [&](Eigen::Index first, Eigen::Index count) {
     const Eigen::VectorXd own = weight.segment(first, count);
-    if (count > 1) kept += own.sum() / weight.sum() * kept_of_ar1({own, runs.size()}, count, rho);
+    if (count > 1) kept += own.sum() / weight.sum() * Waves(own, runs.size(), {}).mean_kept(rho);
   });
   if (kept >= slow_enough) return {};
   return fmt::format(

@@ -22,18 +22,20 @@ Eigen::VectorXd by_run(const Eigen::VectorXd& of_windows, const RunLengths& runs
 /// Deviation of a statistic by the noise of the windows. `influence` is the noise of each window
 /// times the derivative of the statistic; `weight` is the weight of each window in the statistic.
 /// Slow cosine waves are as variable as a sum over all windows, however long windows are correlated
-/// within a fraction of a run; so the mean square of J of them is its variance (equally weighted
-/// cosines: Lazarus, Lewis, Stock & Watson 2018). With u_k the middle of window k, as the fraction
-/// of the run's weight before it, and e_k the influence without its mean over the run,
-///   variance = (2/J) sum over j = 1 ... J of (sum over k of e_k cos(pi j u_k))^2
-/// in each run, J = n^(2/3)/4 with n = (sum W)^2/sum W^2 windows, at least 2 for one run and 1 for
-/// each of several. The last wave counts by the fraction of J. Degrees of freedom are J, of several
-/// runs (sum W)^2/sum(W^2/J) with W the weight of a run. The waves are a little less variable than
-/// the sum: the variance is divided by the part that they would keep in an AR(1) series with the
-/// neighbours' correlation of the influence (as by prewhitening: Andrews & Monahan 1992). No parts
-/// for runs of a single window.
+/// within a fraction of a run; so their mean square is its variance (equally weighted cosines:
+/// Lazarus, Lewis, Stock & Watson 2018). With u_k the middle of window k, as the fraction of the run's
+/// weight before it, and e_k the influence without its mean over the run, in each run
+///   variance = 2 sum of m_j (sum over k of e_k cos(pi j u_k))^2 / sum of m_j l_j,  j = 1, 2, ...
+/// with m_j = 1 but for the last wave. l_j is the part of wave j that a fit to the compositions of the
+/// layers left in the noise (`taken`: CompositionFit::taken(), a row per window; nothing without a
+/// fit). The waves are the slowest ones that leave J = sum of m_j l_j = n^(2/3)/4 with
+/// n = (sum W)^2/sum W^2 windows, at least 2 for one run and 1 for each of several. Degrees of freedom
+/// are J^2/sum of (m_j l_j)^2; of several runs (sum W)^2/sum(W^2/degrees) with W the weight of a run.
+/// The waves are a little less variable than the sum: the variance is divided by the part that they
+/// would keep in an AR(1) series with the neighbours' correlation of the influence (as by prewhitening:
+/// Andrews & Monahan 1992). No parts for runs of a single window.
 Deviation deviation_of_windows(const Eigen::VectorXd& influence, const Eigen::VectorXd& weight,
-                               const RunLengths& runs);
+                               const RunLengths& runs, const Eigen::MatrixXd& taken = {});
 
 /// Integrated autocorrelation time in windows, 1 + 2 sum of the autocorrelation function of all
 /// runs, each about its own mean. It is the largest of 1 and two estimates: the sum to the first

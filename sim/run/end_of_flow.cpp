@@ -9,7 +9,21 @@
 namespace grseg {
 
 template <int D>
-EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene)
+MeanMotion motion_of(const Simulation<D>& simulation)
+{
+  const auto& grains = simulation.world().grains;
+  double mass = 0, momentum = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains.fixed[g]) continue;
+    mass += grains.mass[g];
+    momentum += grains.mass[g] * simulation.velocity(g).x();
+  }
+  return {simulation.time(), momentum / mass};
+}
+
+template <int D>
+EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene,
+                      const MeanMotion& earlier)
 {
   const double base = scene.geometry->boundaries(scene).top;
   const double height = bed_height(simulation, base);
@@ -17,12 +31,11 @@ EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene)
   const bool is_chute = scene.geometry == &bed_geometry && scene.shake_amplitude == 0;
   if (!is_chute || !(height > 0) || !(down > 0)) return {};
   const auto& grains = simulation.world().grains;
-  double mass = 0, momentum = 0, of_surface = 0, momentum_of_surface = 0, volume = 0, diameters = 0;
+  double mass = 0, of_surface = 0, momentum_of_surface = 0, volume = 0, diameters = 0;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (grains.fixed[g]) continue;
     const double own = grains.mass[g], along = own * simulation.velocity(g).x();
     mass += own;
-    momentum += along;
     volume += grain_volume<D>(grains.radius[g]);
     diameters += own * 2 * grains.radius[g];
     if (simulation.position(g).y() < base + height - 2 * scene.small_diameter) continue;
@@ -30,7 +43,11 @@ EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene)
     momentum_of_surface += along;
   }
   EndOfFlow end;
-  end.mean_velocity = momentum / mass;
+  const auto now = motion_of(simulation);
+  end.mean_velocity = now.mean_velocity;
+  end.friction = (simulation.world().gravity.x() -
+                  (now.mean_velocity - earlier.mean_velocity) / (now.time - earlier.time)) /
+                 down;
   end.surface_velocity = momentum_of_surface / of_surface;
   end.solid_fraction = volume / (base_area(scene) * height);
   end.inertial_number = 5 * std::abs(end.mean_velocity) * (diameters / mass) /
@@ -38,7 +55,9 @@ EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene)
   return end;
 }
 
-template EndOfFlow end_of_flow(const Simulation<2>&, const Scene&);
-template EndOfFlow end_of_flow(const Simulation<3>&, const Scene&);
+template MeanMotion motion_of(const Simulation<2>&);
+template MeanMotion motion_of(const Simulation<3>&);
+template EndOfFlow end_of_flow(const Simulation<2>&, const Scene&, const MeanMotion&);
+template EndOfFlow end_of_flow(const Simulation<3>&, const Scene&, const MeanMotion&);
 
 }  // namespace grseg

@@ -14,6 +14,9 @@ struct EndOfFlow {
   double mean_velocity = std::numeric_limits<double>::quiet_NaN();  // m/s, along x, by mass
   /// m/s, along x, by mass, of grains less than 2 d_S below the surface of a flat bed (bed_height).
   double surface_velocity = mean_velocity;
+  /// Friction of base and walls over the pressure on the base, since an earlier time, by the balance of
+  /// momentum: tan(slope) minus the acceleration over g cos(slope).
+  double friction = mean_velocity;
   double solid_fraction = mean_velocity;  // volume (area) of grains over the volume of a flat bed
   /// Inertial number of a steady chute with this mean velocity U: 5 U d/(2 H sqrt(nu g cos(theta) H)),
   /// d: mean diameter by mass, H: height, nu: solid fraction (Jop, Forterre & Pouliquen, Nature 441,
@@ -25,7 +28,15 @@ struct EndOfFlow {
   bool is_jammed() const { return inertial_number < 1e-3; }
 };
 
+/// MeanMotion of the bed at one time.
+struct MeanMotion {
+  double time = 0, mean_velocity = 0;  // s; m/s along x, by mass
+};
 template <int D>
-EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene);
+MeanMotion motion_of(const Simulation<D>& simulation);
+
+template <int D>
+EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene,
+                      const MeanMotion& earlier);
 
 }  // namespace grseg

@@ -96,13 +96,17 @@ struct Checkpoints {
 
 /// Writes frames and checkpoints until the end or a signal. Checkpoints are written just before a
 /// frame, so that a restart may change the step; after a signal, a checkpoint is written at once.
+/// Returns the motion a second before the end, or at the beginning if that was later.
 template <int D>
-void flow(const Scene& scene, Simulation<D>& simulation, Recorder& recorder,
-          Checkpoints<D>& checkpoints, ProgressBar& progress)
+MeanMotion flow(const Scene& scene, Simulation<D>& simulation, Recorder& recorder,
+                Checkpoints<D>& checkpoints, ProgressBar& progress)
 {
   const auto every = scene.steps_per_frame(), end = scene.steps_in_all();
+  const auto of_a_second = std::llround(1 / scene.step);
+  auto earlier = motion_of(simulation);
   Frame<D> frame;
   while (simulation.steps_done() < end && !interrupted()) {
+    if (simulation.steps_done() == end - of_a_second) earlier = motion_of(simulation);
     const auto since_due = simulation.steps_done() % every;
     const bool due = since_due < scene.burst;
     if (since_due == 0) checkpoints.write_if_due();
@@ -112,6 +116,7 @@ void flow(const Scene& scene, Simulation<D>& simulation, Recorder& recorder,
     progress.show(simulation.time());
   }
   checkpoints.write();
+  return earlier;
 }
 
 /// Exception for a run that a signal stops.
@@ -150,7 +155,7 @@ void finish(const Scene& scene, const RunOptions& options, Run<D>& run)
       {.things = "s of flow", .total = scene.duration, .from = simulation.time(), .digits = 2},
       options.quiet);
   const double begin = seconds_now();
-  flow(scene, simulation, recorder, checkpoints, progress);
+  const auto earlier = flow(scene, simulation, recorder, checkpoints, progress);
   progress.clear();
   const double wall = run.progress.wall + seconds_now() - begin;
   const RunSummary summary{simulation.time() - run.progress.begin,
@@ -159,7 +164,7 @@ void finish(const Scene& scene, const RunOptions& options, Run<D>& run)
                            run.deposited_height,
                            recorder.totals(),
                            stiffness_of(scene, recorder.totals()),
-                           end_of_flow(simulation, scene)};
+                           end_of_flow(simulation, scene, earlier)};
   run.writer.add_parameters(to_parameters(summary));
   run.writer.close();
   if (!options.quiet) tell(to_text(summary, scene, simulation.world().grains));

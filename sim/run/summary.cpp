@@ -123,9 +123,9 @@ std::string motion_in_words(const EndOfFlow& end)
   if (std::isnan(end.inertial_number)) return {};
   auto text = line("motion",
                    fmt::format("{:.2g} m/s on average, {:.2g} m/s at the surface; inertial number "
-                               "{:.2g}, solid fraction {:.2f}",
+                               "{:.2g}, friction {:.3f} in the last second, solid fraction {:.2f}",
                                end.mean_velocity, end.surface_velocity, end.inertial_number,
-                               end.solid_fraction));
+                               end.friction, end.solid_fraction));
   if (end.is_jammed())
     text +=
         line("remark",
@@ -257,6 +257,7 @@ Parameters to_parameters(const RunSummary& s)
   n["summary_mean_velocity"] = {s.end_of_flow.mean_velocity};
   n["summary_surface_velocity"] = {s.end_of_flow.surface_velocity};
   n["summary_inertial_number"] = {s.end_of_flow.inertial_number};
+  n["summary_friction"] = {s.end_of_flow.friction};
   n["summary_solid_fraction"] = {s.end_of_flow.solid_fraction};
   n["summary_stiffness"] = {s.stiffness.stiffness};
   n["summary_rigidity"] = {s.stiffness.rigidity};

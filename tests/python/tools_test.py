@@ -344,11 +344,28 @@ def check_all_fits(sample):
     run_tool("stress", "drum.h5", "--bins", "radius", "--layer", "2dS", "--window", "0.25", "--partition", "power:2", "-o", "drum.tsv")
     check_fits(["drum.tsv"])
     check_kinetic_fit("kinetic.tsv")
+    check_verdict("first.tsv")
     check_runs()
     make_tables_for_intervals(sample)
     cases = intervals_of_tool()
     check_intervals(cases)
     require_that_faults_show("intervals", FAULTS_OF_INTERVALS, lambda: check_intervals(cases))
+
+
+def check_verdict(table):
+    """Sentences on the flow are lines of grseg-fit; other files raise what it says of them."""
+    with mock.patch.dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}"):
+        sentences, doubts = grseg.verdict(table, "--begin", 3)
+        try:
+            require(grseg.verdict("absent.tsv") is None, "grseg.verdict reads a file that does not exist")
+        except grseg.Error as error:
+            require("absent.tsv" in str(error), f"grseg.verdict: {error}")
+    run_tool("fit", table, "--begin", 3, "-o", "verdict.tsv")
+    with open("verdict.tsv") as file:
+        lines = [line.partition(": ")[::2] for line in file.read().splitlines() if line.startswith("# ")]
+    for key, own in (("# verdict", sentences), ("# doubt", doubts)):
+        require([text for name, text in lines if name == key] == own, f"grseg.verdict: not the lines '{key}' of {table}")
+    require(sentences[0].startswith("flows: "), sentences[0])
 
 
 def check_runs():
@@ -407,8 +424,8 @@ FAULTS = {
 }
 
 
-def mean_alone(phi, value, weight):
-    return value - value @ weight / weight.sum()
+def mean_alone(fit, value):
+    return value - value @ fit.weight / fit.weight.sum()
 
 
 def runs_of_equal_weight(parts, weight, error=grseg._error_over_runs):
@@ -417,7 +434,9 @@ def runs_of_equal_weight(parts, weight, error=grseg._error_over_runs):
 
 FAULTS_OF_INTERVALS = {
     "windows taken for independent": ("_neighbours", lambda series: 0.0),
-    "drift of composition counted as noise": ("_composition_noise", mean_alone),
+    "drift of composition taken from the noise without a trace": (
+        "_CompositionFit.taken", lambda fit, window, count: np.zeros((count, 0))),
+    "drift of composition counted as noise": ("_CompositionFit.noise", mean_alone),
     "windows that overlap, or in which nothing moves, counted": ("_is_again", lambda *_: False),
     "a normal distribution in Student's place": ("_student", lambda degrees: 1.959963984540054),
     "runs of equal weight": ("_error_over_runs", runs_of_equal_weight),

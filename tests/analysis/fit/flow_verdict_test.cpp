@@ -83,7 +83,7 @@ TEST(FlowVerdict, OfASteadyFlowHasNoDoubt)
   EXPECT_TRUE(verdict.doubts.empty()) << text_of(verdict);
   EXPECT_TRUE(holds(text_of(verdict), "flows: inertial number 0.0")) << text_of(verdict);
   EXPECT_TRUE(holds(text_of(verdict), "steady in these times")) << text_of(verdict);
-  EXPECT_FALSE(verdict.b_changes);
+  EXPECT_FALSE(verdict.changes);
 }
 
 TEST(FlowVerdict, SaysThatABedRestsOrCreeps)
@@ -131,9 +131,29 @@ TEST(FlowVerdict, SaysThatBFallsAndNeedsRunsRatherThanTime)
 {
   const auto verdict =
       verdict_on({flowing(constant(3), [](double t) { return 0.4 * (1 - t / last); })});
-  EXPECT_TRUE(verdict.b_changes);
+  EXPECT_TRUE(verdict.changes);
   EXPECT_TRUE(holds(text_of(verdict), "not steady: B falls from ")) << text_of(verdict);
   EXPECT_TRUE(holds(text_of(verdict), " such runs\n")) << text_of(verdict);
+  EXPECT_FALSE(holds(text_of(verdict), " s of this flow")) << text_of(verdict);
+}
+
+// Large grains take the place of small ones above the middle and give up theirs below it.
+TEST(FlowVerdict, SaysThatGrainsStillSegregateAndThatIntervalsAreOverTheseTimesAlone)
+{
+  auto table = flowing(constant(3));
+  double middle = 0;
+  for (const auto& row : table.rows)
+    middle += (row[2] + row[3]) / 2 / static_cast<double>(table.rows.size());
+  for (auto& row : table.rows) {
+    const double part = 0.5 * row[0] / last * ((row[2] + row[3]) / 2 - middle) / middle;
+    const double moved = part * row[6] * row[7] / (row[6] + row[7]);
+    row[6] -= moved;
+    row[7] += moved;
+  }
+  const auto verdict = verdict_on({table});
+  EXPECT_TRUE(holds(text_of(verdict), "still segregating")) << text_of(verdict);
+  EXPECT_TRUE(holds(text_of(verdict), "large grains rise by ")) << text_of(verdict);
+  EXPECT_TRUE(verdict.changes);
   EXPECT_FALSE(holds(text_of(verdict), " s of this flow")) << text_of(verdict);
 }
 

@@ -78,6 +78,26 @@ TEST(ErrorOverWindows, IsDividedByWhatTheWavesKeepOfACorrelatedSeries)
   EXPECT_NEAR(of_equal(slow, {n}).error().error, std::sqrt(512 / kept), 1e-9);
 }
 
+// A fit to composition that took the first wave whole leaves no noise in it: the next four count. If it
+// took half of it, that wave is worth a half, and the fifth one makes up for the rest: J = 4, and degrees
+// J^2/(1/4 + 3 + 1/4).
+TEST(ErrorOverWindows, DividesByTheNoiseThatAFitToCompositionLeft)
+{
+  Eigen::VectorXd first(64);
+  for (Eigen::Index k = 0; k < 64; ++k)
+    first[k] = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / 64);
+  const auto error = [&](int j, double part) {
+    return deviation_of_windows(wave(j, 64), Eigen::VectorXd::Ones(64), {64},
+                                std::sqrt(part / 32) * first)
+        .error();
+  };
+  EXPECT_NEAR(error(5, 0).error, 0, 1e-11);
+  EXPECT_NEAR(error(5, 1).error, std::sqrt(512), 0.2);
+  EXPECT_NEAR(error(1, 0.5).error, std::sqrt(512), 1e-11);
+  EXPECT_NEAR(error(5, 0.5).error, std::sqrt(256), 1e-11);
+  EXPECT_NEAR(error(5, 0.5).degrees, 16 / 3.5, 1e-12);
+}
+
 // Runs of 64 and 8 windows have 4 waves and 1: degrees 72^2/(64^2/4 + 8^2/1). What a whole run is
 // off by is no noise of its windows.
 TEST(ErrorOverWindows, OfSeveralRunsIsTheSumOfTheirSquares)

@@ -47,7 +47,7 @@ TEST(Summary, TellsHowTheBedMovesAtTheEnd)
     of_diameter += grains.mass[g] * 2 * grains.radius[g];
     area += std::numbers::pi * grains.radius[g] * grains.radius[g];
   }
-  const auto end = end_of_flow(simulation, scene);
+  const auto end = end_of_flow(simulation, scene, {simulation.time() - 2, 0.04});
   EXPECT_NEAR(end.mean_velocity, 0.1, 1e-12);
   EXPECT_NEAR(end.surface_velocity, 0.1, 1e-12);
   const double height = bed_height(simulation, scene.geometry->boundaries(scene).top);
@@ -55,6 +55,9 @@ TEST(Summary, TellsHowTheBedMovesAtTheEnd)
   const double weight = scene.gravity * std::cos(scene.slope * std::numbers::pi / 180);
   EXPECT_NEAR(end.inertial_number * 2 * height * std::sqrt(end.solid_fraction * weight * height),
               5 * 0.1 * of_diameter / mass, 1e-12);
+  // From 0.04 to 0.1 m/s in 2 s: 0.03 m/s^2 that friction did not balance.
+  const double slope = scene.slope * std::numbers::pi / 180;
+  EXPECT_NEAR(end.friction, std::tan(slope) - 0.03 / weight, 1e-12);
   EXPECT_FALSE(end.is_jammed());
 }
 
@@ -66,7 +69,7 @@ std::string text_at_rest(const Scene& scene)
   for (std::size_t g = 0; g < fixed.size(); ++g)
     if (!fixed[g]) simulation.set_velocity(g, {0, 0});
   RunSummary summary;
-  summary.end_of_flow = end_of_flow(simulation, scene);
+  summary.end_of_flow = end_of_flow(simulation, scene, {-1, 0});
   return to_text(summary, scene, {});
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "analysis/statistics/least_squares.hpp"
+#include "analysis/statistics/composition_fit.hpp"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace grseg {
 namespace {
@@ -26,37 +30,62 @@ Eigen::VectorXd weights(Eigen::Index count)
 }
 
 // A power law y = k x^a and a B that grows linearly with phi_L follow from the composition alone.
-TEST(CompositionNoise, APowerLawAndALineOverCompositionAreNone)
+TEST(CompositionFit, APowerLawAndALineOverCompositionAreNone)
 {
   const auto phi = compositions(50);
   const Eigen::VectorXd law = 0.3 + 0.7 * ratio(phi).array().log() - 1.1 * phi.array();
-  EXPECT_LT(composition_noise(phi, law, weights(50)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(CompositionFit(phi, weights(50)).noise(law).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(CompositionNoise, AddsUpToZero)
+TEST(CompositionFit, AddsUpToZero)
 {
   const auto phi = compositions(40);
   const Eigen::VectorXd value = (37 * phi.array()).sin(), weight = weights(40);
-  const Eigen::VectorXd noise = composition_noise(phi, value, weight);
+  const Eigen::VectorXd noise = CompositionFit(phi, weight).noise(value);
   EXPECT_NEAR(noise.dot(weight), 0, 1e-12);
   EXPECT_NEAR(noise.cwiseProduct(weight).dot(phi), 0, 1e-12);
   EXPECT_GT(noise.norm(), 0.8 * value.norm());
 }
 
-TEST(CompositionNoise, OfOneCompositionIsTheDeviationFromTheMean)
+TEST(CompositionFit, OfOneCompositionIsTheDeviationFromTheMean)
 {
   const Eigen::VectorXd phi = Eigen::VectorXd::Constant(60, 0.3), weight = weights(60);
   const Eigen::VectorXd value = Eigen::VectorXd::LinSpaced(60, -1, 5);
   const Eigen::VectorXd deviation = value.array() - value.dot(weight) / weight.sum();
-  EXPECT_LT((composition_noise(phi, value, weight) - deviation).norm(), 1e-12);
+  EXPECT_LT((CompositionFit(phi, weight).noise(value) - deviation).norm(), 1e-12);
 }
 
-// Each coefficient needs ten points: with fewer than 30 points no trend is fitted.
-TEST(CompositionNoise, OfFewPointsIsTheDeviationFromTheMean)
+// Below thirty points the two terms count by (points - 10)/20: a line leaves 1, 3/4 and 1/20 of itself.
+TEST(CompositionFit, CountsByTheNumberOfPointsWhereTheyAreFew)
 {
-  const auto phi = compositions(29);
-  const Eigen::VectorXd weight = Eigen::VectorXd::Ones(29);
-  EXPECT_NEAR(composition_noise(phi, phi, weight)[0], 0.01 - 0.5, 1e-15);
+  for (const auto& [points, left] :
+       {std::pair{8, 1.0}, {10, 1.0}, {15, 0.75}, {29, 0.05}, {30, 0.0}}) {
+    const auto phi = compositions(points);
+    const CompositionFit fit(phi, Eigen::VectorXd::Ones(points));
+    EXPECT_NEAR(fit.noise(phi)[0], left * (0.01 - 0.5), 1e-14) << points;
+  }
+}
+
+// The terms are a line and a curve over the compositions. In windows of one layer each, phi_L minus its
+// mean is taken whole, and what the fit leaves of any number is the rest of its sum of squares.
+TEST(CompositionFit, TakesFromANumberByWindowWhatItDoesNotLeave)
+{
+  const auto phi = compositions(40);
+  const Eigen::VectorXd weight = weights(40);
+  const CompositionFit fit(phi, weight);
+  std::vector<std::size_t> window(40);
+  std::iota(window.begin(), window.end(), 0);
+  const auto part_taken = [&](const Eigen::VectorXd& value) {
+    const Eigen::VectorXd rest = value.array() - weight.dot(value) / weight.sum();
+    return (fit.taken(window, 40).transpose() * rest).squaredNorm() / weight.dot(rest.cwiseAbs2());
+  };
+  EXPECT_NEAR(part_taken(phi), 1, 1e-12);
+  const Eigen::VectorXd value = (5 * phi.array()).sin();
+  const double left = weight.dot(fit.noise(value).cwiseAbs2()),
+               all =
+                   weight.dot((value.array() - weight.dot(value) / weight.sum()).square().matrix());
+  EXPECT_NEAR(part_taken(value), 1 - left / all, 1e-12);
+  EXPECT_GT(left / all, 0.01);
 }
 
 /// Four groups of ten points: point k of group g is at `of(g, k)`.
@@ -69,12 +98,12 @@ double degrees_of_four_groups(const Of& of)
     phi[k] = of(static_cast<double>(k / 10), static_cast<double>(k % 10));
     group.push_back(static_cast<std::size_t>(k / 10));
   }
-  return degrees_of_composition(phi, Eigen::VectorXd::Ones(40), group);
+  return CompositionFit(phi, Eigen::VectorXd::Ones(40)).degrees(group);
 }
 
 // If groups have different compositions, the fit explains what line, curve and mean can: 3 of 4
 // degrees. If groups are alike it only removes their mean.
-TEST(CompositionNoise, TakesThreeDegreesOfGroupsThatAreApartAndOneOfGroupsThatAreAlike)
+TEST(CompositionFit, TakesThreeDegreesOfGroupsThatAreApartAndOneOfGroupsThatAreAlike)
 {
   EXPECT_NEAR(degrees_of_four_groups([](double g, double) { return 0.2 + 0.15 * g; }), 3, 1e-9);
   EXPECT_NEAR(degrees_of_four_groups([](double, double k) { return 0.05 + 0.1 * k; }), 1, 1e-9);
