@@ -34,6 +34,9 @@ Json rules_known()
   return rules;
 }
 
+const WantedTables wanted{{"grseg-stress", "grseg-merge"},
+                          "beside runs, give tables of grseg-stress only"};
+
 /// Digest and bed of each run as written in its file. The digest is verified later, when the run is read.
 std::vector<RunIdentity> identities_of(const std::vector<std::string>& runs)
 {
@@ -62,7 +65,9 @@ void write_page(const ToolInfo& info, const po::variables_map& values, ExploreSe
 {
   s.check(values);
   const auto inputs = inputs_of(values);
-  const auto tables = read_tables(with_inputs(values, inputs.tables));
+  const auto tables = inputs.tables.empty()
+                          ? std::vector<Table>{}
+                          : read_tables(with_inputs(values, inputs.tables), wanted);
   const auto of_runs = tables_of_runs(tables, identities_of(inputs.runs));
   refuse_too_large(info, values, inputs.runs, s);
   std::vector<RunOfPage> runs;

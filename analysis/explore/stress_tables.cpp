@@ -90,12 +90,7 @@ StressTables make_tables(FrameLoop& loop, const std::string& command)
 /// with the same bed, i.e. another file of the same flow.
 std::size_t run_of(const Table& table, const std::vector<RunIdentity>& runs)
 {
-  const auto program = header_or(table, "program", "");
   const auto name = printable(table.name);
-  if (!program.starts_with("grseg-stress ") && !program.starts_with("grseg-merge "))
-    throw FormatError(fmt::format(
-        "{}: is {}; beside runs, give tables of grseg-stress only", name,
-        program.empty() ? "not a table made by grseg" : "a table of " + printable(program)));
   const auto inputs = header_values(table, "input");
   if (inputs.size() != 1)
     throw FormatError(

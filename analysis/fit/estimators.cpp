@@ -67,6 +67,12 @@ Estimators estimators_of(const std::vector<FitPoint>& points)
                          a);
 }
 
+std::pair<double, double> bounds_of_b(const std::vector<FitPoint>& points)
+{
+  return {weighted_mean(points, [](const FitPoint& p) { return -1 / (1 - p.phi_large); }),
+          weighted_mean(points, [](const FitPoint& p) { return 1 / p.phi_large; })};
+}
+
 double neutral_mean(const std::vector<FitPoint>& points, const PartitionRule& rule)
 {
   return weighted_mean(

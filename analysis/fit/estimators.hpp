@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace grseg {
@@ -50,6 +51,10 @@ Eigen::Index column_of(double Estimators::*place);
 /// Estimators from the points themselves, by fits of GSL. Points with a partial stress that is not
 /// positive are used for B only.
 Estimators estimators_of(const std::vector<FitPoint>& points);
+
+/// Least and largest B of these points if no partial stress is negative, so that 0 <= psi_L <= 1: the
+/// means of -1/phi_S and of 1/phi_L, with the weights of B.
+std::pair<double, double> bounds_of_b(const std::vector<FitPoint>& points);
 
 /// Mean of the neutral B over the points, with the weights of B: the B of contacts that ignore
 /// grain size (partition_rule.hpp).

@@ -19,6 +19,13 @@ std::string range_text(const std::vector<double>& numbers)
   return low == high ? low : low + " to " + high;
 }
 
+/// A positive number, rounded to one significant digit.
+double rounded(double number)
+{
+  const double power = std::pow(10, std::floor(std::log10(number)));
+  return std::round(number / power) * power;
+}
+
 /// Time, s, that lies the fraction `left_out` after the begin of the earliest window.
 double time_after(const FitData& data, double left_out)
 {
@@ -181,13 +188,13 @@ class Judge {
       return;
     if (half <= wanted_half_width) return say(fmt::format("B is known to +- {:.3f}", half));
     const double times = times_for(half, over_runs ? 1 : 2.0 / 3);
-    const auto of_runs =
-        fmt::format("{:.0f} such runs", std::ceil(times * static_cast<double>(data_.runs.size())));
+    const auto of_runs = fmt::format(
+        "{:g} such runs", rounded(std::ceil(times * static_cast<double>(data_.runs.size()))));
     say(fmt::format(
-        "B +- {:g} needs {}", wanted_half_width,
+        "B +- {:g} needs about {} (an order of magnitude)", wanted_half_width,
         over_runs || verdict_.changes
             ? of_runs
-            : fmt::format("about {:.2g} s of this flow, or {}", times * seconds, of_runs)));
+            : fmt::format("{:g} s of this flow, or {}", rounded(times * seconds), of_runs)));
   }
   /// Multiple of the present data with which the half-width `half` becomes the wanted one: the
   /// error falls with its root, and the degrees of freedom grow with its `power` (of windows 2/3:

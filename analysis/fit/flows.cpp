@@ -53,13 +53,28 @@ constexpr std::string_view keys_in_metres[] = {
     "depth",        "base-diameter", "base-height-spread", "base-spacing", "drum-diameter",
     "column-width", "outlet",        "shake-amplitude"};
 
+/// Keys of scenes, by their first letters, that act in one geometry only. Every scene states them,
+/// some with values that follow from other keys.
+constexpr std::pair<std::string_view, std::string_view> keys_of_geometry[] = {
+    {"base-", "bed"},    {"shake-", "bed"},     {"drum-", "drum"},   {"fill", "drum"},
+    {"plate-", "shear"}, {"column-", "column"}, {"outlet", "hopper"}};
+
+/// True if the key has no effect in a scene of this geometry.
+bool is_of_another(std::string_view key, std::string_view geometry)
+{
+  if (key == "depth") return geometry == "drum";
+  const auto own = std::ranges::find_if(
+      keys_of_geometry, [&](const auto& entry) { return key.starts_with(entry.first); });
+  return own != std::end(keys_of_geometry) && own->second != geometry;
+}
+
 bool holds(std::span<const std::string_view> list, std::string_view word)
 {
   return std::ranges::find(list, word) != list.end();
 }
 
-/// Keys and values of a table's line "# scene: KEY = VALUE; ..." without keys_left_out; empty if
-/// the table has no such line. The slope at t = 0 counts where gravity turns, and so has no value.
+/// Keys and values of a table's line "# scene: KEY = VALUE; ..." without keys_left_out and keys of
+/// other geometries; empty if the table has no such line. The slope at t = 0 counts where gravity turns, and so has no value.
 std::map<std::string, std::string> scene_of(const Table& table)
 {
   std::map<std::string, std::string> scene;
@@ -73,6 +88,10 @@ std::map<std::string, std::string> scene_of(const Table& table)
     if (equals != std::string::npos && !is_left_out(word.substr(0, equals)))
       scene[word.substr(0, equals)] = word.substr(equals + 3);
   }
+  if (const auto geometry = scene.find("geometry"); geometry != scene.end())
+    std::erase_if(scene, [own = geometry->second](const auto& entry) {
+      return is_of_another(entry.first, own);
+    });
   return scene;
 }
 

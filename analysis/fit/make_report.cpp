@@ -117,10 +117,23 @@ po::options_description FitOptions::description()
   return options;
 }
 
+WantedTables FitOptions::wanted() const
+{
+  if (quantity == "kinetic")
+    return {
+        {"", "grseg-kinetic"},
+        "with --quantity kinetic name tables of grseg-kinetic, such as kinetic.tsv of grseg-kinetic "
+        "run.h5 -o kinetic.tsv, or - for standard input",
+        "--minus"};
+  return {
+      {"", "grseg-stress", "grseg-merge"},
+      "name tables of grseg-stress, such as sums.tsv of grseg-stress run.h5 -o sums.tsv, or - for "
+      "standard input; tables of grseg-kinetic need --quantity kinetic",
+      "--minus"};
+}
+
 void FitOptions::check(const po::variables_map& values)
 {
-  if (!values.contains("input"))
-    throw UsageError("no table given; name tables of grseg-stress, or - for standard input");
   output.check(values);
   filters.check();
   if (!over.empty()) choose(over, "--over", populations);
@@ -265,7 +278,9 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings,
                            s.exponent || report.names_pairs());
   if (!s.minus.empty()) {
-    const auto others = listed(s.minus, [](const auto& path) { return Table::read(path); });
+    const auto wanted = s.wanted();
+    const auto others =
+        listed(s.minus, [&](const auto& path) { return Table::read(path, &wanted); });
     require_same_runs(tables, others);
     auto read_otherwise = read_fit_tables(others, report.quantity, rules);
     find_flows(read_otherwise, s.flows);

@@ -24,6 +24,8 @@ struct FitOptions {
   FitFilters filters;
 
   po::options_description description();
+  /// The tables of the chosen quantity.
+  WantedTables wanted() const;
   /// Throws UsageError for invalid values, before any table is read; sets `filters`.
   void check(const po::variables_map& values);
 };

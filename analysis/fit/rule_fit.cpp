@@ -78,6 +78,26 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
   return doubt_of_flows(fit, errors.single_runs(), flows);
 }
 
+/// Largest part of B that gradients inside the layers can add. If phi_L, phi_S and the stress are
+/// positive and linear in a layer, |phi_L'| h/2 <= min(phi_L, phi_S) and |sigma'| h/2 <= sigma, so
+/// that they add at most 2/3 (Thickness).
+constexpr double most_of_thickness = 2.0 / 3;
+
+/// Warning that B lies beyond its bounds, usually "".
+std::string doubt_of_bounds(const RuleFit& fit, const std::vector<FitPoint>& points)
+{
+  const auto [least, most] = bounds_of_b(points);
+  if (!(fit.value.B < least) && !(fit.value.B > most)) return {};
+  const bool by_thickness = std::abs(fit.of_thickness) > most_of_thickness;
+  return fmt::format(
+      "B = {:.3g} is impossible: large grains bear at least none and at most all of the stress, so "
+      "that B of these compositions lies between {:.2g} and {:.2g}{}",
+      fit.value.B, least, most,
+      by_thickness ? ""
+                   : "; some stresses are negative or noise: take longer windows, or layers and "
+                     "--heights with more contacts");
+}
+
 /// B of the layers' means minus B (Thickness).
 double part_of_thickness(const FitData& data, const PartitionRule& rule, FitSettings settings)
 {
@@ -89,12 +109,10 @@ double part_of_thickness(const FitData& data, const PartitionRule& rule, FitSett
 }
 
 /// Warning that gradients inside the layers move B by more than half its interval, or by more than
-/// they can, usually "". If phi_L, phi_S and the stress are positive and linear in a layer, |phi_L'| h/2
-/// <= min(phi_L, phi_S) and |sigma'| h/2 <= sigma, so that they add at most 2/3 to B (Thickness).
+/// they can, usually "".
 std::string doubt_of_thickness(const RuleFit& fit, const FitSettings& settings)
 {
-  constexpr double most = 2.0 / 3;
-  if (std::abs(fit.of_thickness) > most)
+  if (std::abs(fit.of_thickness) > most_of_thickness)
     return fmt::format(
         "by differences to the next layers, gradients inside the layers add {:.2g} to B of their "
         "means, but straight profiles add at most 2/3: {}; take thinner layers, or cells with more "
@@ -193,6 +211,7 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
     return fit;
   }
   fit.of_thickness = part_of_thickness(data, rule, settings);
+  add_doubt(fit, doubt_of_bounds(fit, points));
   add_doubt(fit, doubt_of_thickness(fit, settings));
   if (data.quantity == Quantity::kinetic) return fit;
   fit.minus_size = minus(fit, data, windows, fit_points(data, PartitionRule{}, settings));

@@ -44,13 +44,6 @@ bool is_source(const std::string& key)
 
 void require_stress_table(const Table& table)
 {
-  const auto& program = table.header_text("program");
-  const auto name = program.substr(0, program.find(' '));
-  if (name != "grseg-stress" && name != "grseg-merge")
-    throw FormatError(fmt::format(
-        "{}: was made by {}; only tables of grseg-stress can be merged, because their columns are "
-        "means per frame",
-        table.name, program));
   refuse_map(table);
   const int dimension = dimension_of(table);
   for (std::size_t c = 0; c < key_columns.size(); ++c)

@@ -31,6 +31,11 @@ constexpr ToolInfo info{
     "  grseg-closure *.segregation.tsv *.stress.tsv --partition size,half --instruments same\n"
     "  grseg-closure a.segregation.tsv a.stress.tsv --predict b.segregation.tsv   phi_L(y, t) of b\n"};
 
+const WantedTables wanted{
+    {"", "grseg-segregation", "grseg-stress", "grseg-merge"},
+    "name a table of grseg-segregation (without --summary) and one of grseg-stress for each run",
+    "--predict"};
+
 struct Settings {
   ClosureFilter filter;
   std::vector<std::string> partition;
@@ -114,10 +119,7 @@ void close(Settings& s, const po::variables_map& values, const std::string& comm
   if (s.partition.empty()) s.partition = {"stock"};
   const auto rules = parse_rules(s.partition);
   s.filter.instruments = choose(s.instruments, "--instruments", instrument_choices);
-  const auto tables = read_tables(values);
-  if (tables.empty())
-    throw UsageError(
-        "no table given; name a table of grseg-segregation and one of grseg-stress for each run");
+  const auto tables = read_tables(values, wanted);
   const auto data = read_closure(tables, rules, s.filter);
   auto header = provenance_of(tables, info, "", command);
   if (!data.doubt.empty()) header.emplace_back("doubt", data.doubt);

@@ -20,6 +20,11 @@ constexpr ToolInfo info{
     "  grseg-micro run.h5 | grseg-derive -              through a pipe, without a file\n",
     presets::derive};
 
+const WantedTables wanted{
+    {"", "grseg-micro"},
+    "name tables of grseg-micro, such as micro.tsv of grseg-micro run.h5 -o micro.tsv, or - for "
+    "standard input"};
+
 struct Settings {
   DerivedOptions derivation;
   TableOptions output;
@@ -41,9 +46,7 @@ void derive(Settings& s, const po::variables_map& values, const std::string& com
 {
   s.derivation.check();
   s.output.check(values);
-  const auto tables = read_tables(values);
-  if (tables.empty())
-    throw UsageError("no table given; name tables of grseg-micro, or - for standard input");
+  const auto tables = read_tables(values, wanted);
   const auto table =
       derived_table(tables, s.derivation, provenance_of(tables, info, preset_of(values), command));
   write_table(s.output, s.json ? table.to_json() : table.to_text());

@@ -88,7 +88,7 @@ int main(int argc, char** argv)
   const auto description = options.description();
   return run_tool(argc, argv, info, description, [&](const po::variables_map& values) {
     options.check(values);
-    const auto tables = read_tables(values);
+    const auto tables = read_tables(values, options.wanted());
     auto report = make_report(info, options, preset_of(values), tables);
     report.history.push_back(command_line(argc, argv));
     require_numbers(report);

@@ -14,6 +14,11 @@ constexpr ToolInfo info{
     "  grseg-merge seed1.tsv seed2.tsv -o sums.tsv      the sums of two runs as one table\n"
     "  grseg-merge sums.tsv --all-windows               all windows merged into one\n"};
 
+const WantedTables wanted{
+    {"grseg-stress", "grseg-merge"},
+    "name tables of grseg-stress, the only ones that can be merged, since their columns are means per "
+    "frame"};
+
 struct Settings {
   TableOptions output;
   bool all_windows = false, json = false, quiet = false;
@@ -33,7 +38,7 @@ po::options_description options_into(Settings& s)
 void merge(Settings& s, const po::variables_map& values, const std::string& command)
 {
   s.output.check(values);
-  const auto merged = merge_tables(read_tables(values), s.all_windows, info, command);
+  const auto merged = merge_tables(read_tables(values, wanted), s.all_windows, info, command);
   write_table(s.output, s.json ? merged.to_json() : merged.to_text());
 }
 

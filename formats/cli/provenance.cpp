@@ -103,15 +103,20 @@ bool same_setting(const std::string& a, const std::string& b)
   return !(others >> other);
 }
 
-std::vector<Table> read_tables(const po::variables_map& values)
+std::vector<Table> read_tables(const po::variables_map& values, const WantedTables& wanted)
 {
+  if (!wanted.greedy.empty() && !values.contains("input") &&
+      values.contains(wanted.greedy.substr(2)))
+    throw UsageError(fmt::format(
+        "no table given, because {} takes all files behind it; put {} and its files last",
+        wanted.greedy, wanted.greedy));
+  if (!values.contains("input")) throw UsageError("no table given; " + wanted.remedy);
   std::vector<Table> tables;
-  if (!values.contains("input")) return tables;
   const auto& paths = values["input"].as<std::vector<std::string>>();
   if (std::count(paths.begin(), paths.end(), "-") > 1)
     throw UsageError("standard input, -, can be read only once");
   tables.reserve(paths.size());
-  for (const auto& path : paths) tables.push_back(Table::read(path));
+  for (const auto& path : paths) tables.push_back(Table::read(path, &wanted));
   return tables;
 }
 

@@ -48,8 +48,9 @@ Header settings_of(const Table& table);
 /// agree up to round-off, such as 0.2 and 2.2 - 2.
 bool same_setting(const std::string& a, const std::string& b);
 
-/// The tables that the command line names ("-": standard input), read by Table::read().
-std::vector<Table> read_tables(const po::variables_map& values);
+/// The tables that the command line names ("-": standard input), read by Table::read(). Throws
+/// UsageError with the remedy if it names none.
+std::vector<Table> read_tables(const po::variables_map& values, const WantedTables& wanted);
 
 /// Header lines on reliability that a result inherits from its tables: "verified", "incomplete",
 /// "undecided", "waived" and "doubt", each value once. "verified: all" remains only if no table has

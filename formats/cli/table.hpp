@@ -10,6 +10,13 @@
 
 namespace grseg {
 
+/// Tables that a tool reads, by the programs that made them.
+struct WantedTables {
+  std::vector<std::string_view> programs;  // "grseg-stress"; "": made by hand
+  std::string remedy;                      // "name tables of grseg-stress, such as ..."
+  std::string greedy = {};                 // option, "--minus", that takes all files behind it
+};
+
 /// A TSV table: "# key: value" lines, one line of column[unit] names, rows of numbers with 17
 /// significant digits ("nan" for a missing value), and a last line with row count and checksum
 /// (end_line()). The same content gives the same bytes.
@@ -43,9 +50,11 @@ class Table {
   /// Reads a file, or standard input if `path` is "-". Throws UsageError if the file is missing.
   /// Throws FormatError, which names the line, if it is not a table or was changed: the last line
   /// must agree with all other lines. Only tables made by hand may lack it; their header then gets
-  /// the line "verified: no, made by hand".
-  static Table read(const std::string& path);
-  static Table parse(const std::string& text, const std::string& name);
+  /// the line "verified: no, made by hand". Throws FormatError with the remedy if another program
+  /// than those `wanted` made the table.
+  static Table read(const std::string& path, const WantedTables* wanted = nullptr);
+  static Table parse(const std::string& text, const std::string& name,
+                     const WantedTables* wanted = nullptr);
 
   std::string name = "table";  // file name, for messages
 };

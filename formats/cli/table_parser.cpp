@@ -32,7 +32,8 @@ std::vector<std::string_view> split(std::string_view text, char at)
 /// Reads a table line by line and throws FormatError if the table is damaged.
 class TableParser {
  public:
-  TableParser(const std::string& text, const std::string& name) : text_(text)
+  TableParser(const std::string& text, const std::string& name, const WantedTables* wanted)
+      : text_(text)
   {
     table_.name = name;
     require_text();
@@ -51,6 +52,7 @@ class TableParser {
                       "truncated or damaged, make it again (a table made by hand has no line '# "
                       "program: ...')",
                       end_mark, excerpt(table_.header_text("program"))));
+    if (wanted != nullptr) require(*wanted);
     read_columns(head);
     for (std::size_t k = head + 1; k < end; ++k) read_row(k);
   }
@@ -128,6 +130,16 @@ class TableParser {
       table_.header.emplace_back("verified", "no, made by hand");
   }
 
+  void require(const WantedTables& wanted) const
+  {
+    const auto program = table_.made_by_hand() ? "" : table_.header_text("program");
+    if (std::ranges::find(wanted.programs, program.substr(0, program.find(' '))) !=
+        wanted.programs.end())
+      return;
+    fail(fmt::format("is a table {}; {}",
+                     program.empty() ? "made by hand" : "of " + excerpt(program), wanted.remedy));
+  }
+
   void read_columns(std::size_t k)
   {
     const auto cells = split(lines_[k], '\t');
@@ -174,18 +186,20 @@ class TableParser {
 
 }  // namespace
 
-Table Table::read(const std::string& path)
+Table Table::read(const std::string& path, const WantedTables* wanted)
 {
-  if (path == "-")
-    return parse(std::string(std::istreambuf_iterator<char>(std::cin), {}), "standard input");
+  const auto all_of = [](std::istream& file) {
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  if (path == "-") return parse(all_of(std::cin), "standard input", wanted);
   require_file(path);
   std::ifstream file(path, std::ios::binary);
-  return parse(std::string(std::istreambuf_iterator<char>(file), {}), path);
+  return parse(all_of(file), path, wanted);
 }
 
-Table Table::parse(const std::string& text, const std::string& name)
+Table Table::parse(const std::string& text, const std::string& name, const WantedTables* wanted)
 {
-  return TableParser(text, name).table();
+  return TableParser(text, name, wanted).table();
 }
 
 }  // namespace grseg

@@ -124,7 +124,9 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     all.add_options()("preset", word_option(nullptr, words_of(preset_names)), presets.c_str());
   const auto columns = columns_text(info.name);
   if (!columns.empty())
-    all.add_options()("columns", "print the meaning of all columns of the tool's tables, and exit");
+    all.add_options()("columns",
+                      "print the meaning of all columns of the tool's tables, or of those whose "
+                      "names follow, and exit");
   all.add_options()("version", "print the version, and where to report faults, and exit");
   all.add_options()("cite", "print what to cite, as BibTeX, and exit");
   all.add_options()("completion", word_option(nullptr, shells()),
@@ -135,7 +137,9 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
     if (values.count("help") > 0) {
       print_help(info, all);
     } else if (!columns.empty() && values.count("columns") > 0) {
-      std::cout << columns;
+      const auto named = values.contains("input") ? values["input"].as<std::vector<std::string>>()
+                                                  : std::vector<std::string>{};
+      std::cout << columns_text(info.name, named);
     } else if (values.count("cite") > 0) {
       std::cout << bibtex;
     } else if (values.count("completion") > 0) {

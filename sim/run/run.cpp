@@ -154,13 +154,14 @@ void finish(const Scene& scene, const RunOptions& options, Run<D>& run)
       program,
       {.things = "s of flow", .total = scene.duration, .from = simulation.time(), .digits = 2},
       options.quiet);
-  const double begin = seconds_now();
+  const double begin = seconds_now(), from = simulation.time();
   const auto earlier = flow(scene, simulation, recorder, checkpoints, progress);
   progress.clear();
-  const double wall = run.progress.wall + seconds_now() - begin;
-  const RunSummary summary{simulation.time() - run.progress.begin,
+  const RunSummary summary{simulation.time() - from,
                            simulation.time(),
-                           wall,
+                           seconds_now() - begin,
+                           from - run.progress.begin,
+                           run.progress.wall,
                            run.deposited_height,
                            recorder.totals(),
                            stiffness_of(scene, recorder.totals()),

@@ -42,6 +42,18 @@ std::string grains_in_words(const Scene& scene, const Grains& grains)
       scene.dimension, count(Species::boundary));
 }
 
+std::string times_in_words(const RunSummary& s)
+{
+  auto text = fmt::format("{:g} s simulated in {:.1f} s ({:.3g} s per second)", s.simulated, s.wall,
+                          s.wall > 0 ? s.simulated / s.wall : 0);
+  if (s.end > s.simulated)
+    text += fmt::format(", from t = {:g} s to {:g} s", s.end - s.simulated, s.end);
+  if (s.simulated_before > 0)
+    text += fmt::format("; with the part before, {:g} s in {:.1f} s",
+                        s.simulated_before + s.simulated, s.wall_before + s.wall);
+  return text;
+}
+
 std::string flow_in_words(const RunSummary& s, const Scene& scene)
 {
   auto slope =
@@ -276,8 +288,7 @@ void add_unknown_summary(Parameters& parameters)
 
 std::string to_text(const RunSummary& s, const Scene& scene, const Grains& grains)
 {
-  auto text = fmt::format("grseg-sim: {:g} s simulated in {:.1f} s ({:.3g} s per second)\n",
-                          s.simulated, s.wall, s.wall > 0 ? s.simulated / s.wall : 0);
+  auto text = "grseg-sim: " + times_in_words(s) + '\n';
   text += line("grains", grains_in_words(scene, grains));
   text += line("flow", flow_in_words(s, scene));
   text += motion_in_words(s.end_of_flow);

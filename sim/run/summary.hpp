@@ -57,7 +57,9 @@ NumericalStiffness numerical_stiffness(const StiffnessInput& in);
 /// Results of a run that are stored and printed at its end.
 struct RunSummary {
   double simulated = 0, end = 0, wall = 0;  // s: duration of the flow, its end, wall-clock time
-  double deposited_height = 0;              // m, height of the deposited bed
+  // s: the same, of the part of the run that was there before and is continued
+  double simulated_before = 0, wall_before = 0;
+  double deposited_height = 0;  // m, height of the deposited bed
   StepTotals totals;
   NumericalStiffness stiffness;
   EndOfFlow end_of_flow;

@@ -48,6 +48,9 @@ for name in index.html b-of-slope.png b-of-slope.pdf; do [ -s "killed/$name" ] |
 [ "$(grep -c '^ ' killed/sweep.txt)" = "$(cut -f 2 killed/runs.tsv | tail -n +2 | sort -u | wc -l | awk '{ print $1 }')" ] || fail "sweep.txt: rows"
 
 grep -q '^# heights: inside' killed/sweep.tsv && grep -q '^heights inside; begin 0 s' killed/sweep.txt || fail "the settings are not said"
+grep -Eq ' runs +windows +points .* verdict$' killed/sweep.txt || fail "sweep.txt does not say on how many points B rests"
+! grep -E '^ .* -$' killed/sweep.txt || fail "a flow without a verdict"
+grep -q '^# windows: ' killed/sweep.tsv && grep -q '"verdict": "[a-z]' killed/index.html || fail "windows or verdict are missing"
 grep -q '^doubt of . of . flows: few runs show little' killed/sweep.txt || fail "two seeds without a doubt"
 ! sweep killed BEGIN=20 >late.log 2>&1 || fail "times after the end have a B"
 grep -q 'there is no B for any flow' late.log && ! grep -q Traceback late.log || fail "$(cat late.log)"

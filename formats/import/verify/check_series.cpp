@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/verify/check_series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -224,6 +226,19 @@ std::optional<Halves<Estimate>> change_of_gravity(const CheckSeries& series, dou
         return !((second.value - first.value).norm() <=
                  std::max(tolerance, 5 * std::hypot(first.error, second.error)));
       });
+}
+
+std::string in_words(const Slope& slope, const std::string& what)
+{
+  return fmt::format("{:.4g} times {} (limits: {:g} and {:g}), with a standard error of {:.2g}",
+                     slope.value, what, 1 - slope_tolerance, 1 + slope_tolerance, slope.error);
+}
+
+std::string why_undecided(const Slope& slope)
+{
+  return slope.uncertainty() > sharp_slope
+             ? fmt::format("a verdict needs an uncertainty of at most {:g}", sharp_slope)
+             : "it lies beyond a limit by less than its uncertainty";
 }
 
 std::optional<Halves<Slope>> change_of_slope(const CheckSeries& series,

@@ -128,6 +128,11 @@ struct Slope {
 /// uncertainty of an accepted slope, so that a slope of 0.5 or 1.5 is refused.
 inline constexpr double slope_tolerance = 0.1, sharp_slope = 0.5 - slope_tolerance;
 
+/// "1.02 times velocity times time (limits: 0.9 and 1.1), with a standard error of 0.003".
+std::string in_words(const Slope& slope, const std::string& what);
+/// Why a slope that is not refused is not accepted either.
+std::string why_undecided(const Slope& slope);
+
 /// The slope; empty for fewer than three grains, or if `doubt` is larger than 0.1.
 std::optional<Slope> slope_of(const SlopeSums& sums);
 SlopeSums sums_of(const CheckSeries& series, SlopeSums CheckNumbers::*which);

@@ -22,21 +22,22 @@ double largest(const CheckSeries& series, double CheckNumbers::*number)
 /// Finding of a check that passes if `measure` is at most `limit`.
 Finding within(const char* check, double measure, double limit, const std::string& sentence)
 {
-  return {check, measure <= limit ? Verdict::passed : Verdict::failed, sentence, measure};
+  return {check, measure <= limit ? Verdict::passed : Verdict::failed,
+          limit > 0 ? fmt::format("{} (limit: {:g})", sentence, limit) : sentence, measure};
 }
 
 Finding judge_contacts(const CheckSeries& series)
 {
   const double distance = largest(series, &CheckNumbers::distance);
   const double gap = largest(series, &CheckNumbers::gap);
-  auto finding = within(
-      "contacts", std::max(distance, gap), widest_gap,
+  const bool passes = gap <= widest_gap && distance <= largest_distance;
+  return {
+      "contacts", passes ? Verdict::passed : Verdict::failed,
       fmt::format("grains that exert a force on each other are up to {:.2g} of the smaller radius "
-                  "apart, and their distances differ by up to {:.2g} "
+                  "apart (limit: {:g}), and their distances differ by up to {:.2g} (limit: {:g}) "
                   "from the distances that the archive states",
-                  gap, distance));
-  if (distance > largest_distance) finding.verdict = Verdict::failed;
-  return finding;
+                  gap, widest_gap, distance, largest_distance),
+      std::max(distance, gap)};
 }
 
 Finding judge_completeness(const CheckSeries& series)
@@ -227,9 +228,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
                     change->first.value, change->second.value),
         std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1))};
   const double off = std::abs(slope->value - 1), unsure = slope->uncertainty();
-  const auto sentence = fmt::format(
-      "displacements are {:.4g} times velocity times time, with a standard error of {:.2g}",
-      slope->value, slope->error);
+  const auto sentence = "displacements are " + in_words(*slope, "velocity times time");
   if (off > slope_tolerance + unsure)
     return {
         "time", Verdict::failed,
@@ -245,7 +244,7 @@ Finding judge_time(const CheckSeries& series, const CheckContext& context)
                           context.step / context.units.time),
         off};
   if (off > slope_tolerance || unsure > sharp_slope) {
-    auto finding = undecided_time(context, sentence + ", which is too large for a verdict");
+    auto finding = undecided_time(context, sentence + ": " + why_undecided(*slope));
     finding.measure = off;
     return finding;
   }

@@ -193,9 +193,7 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
         std::max(std::abs(change->first.value - 1), std::abs(change->second.value - 1)));
   if (!slope) return part(Verdict::undecided, "force over acceleration cannot be computed");
   const double off = std::abs(slope->value - 1), unsure = slope->uncertainty();
-  const auto sentence = fmt::format(
-      "force over acceleration is {:.4g} times the mass, with a standard error of {:.2g}",
-      slope->value, slope->error);
+  const auto sentence = "force over acceleration is " + in_words(*slope, "the mass");
   if (off > slope_tolerance + unsure)
     return part(
         Verdict::failed,
@@ -207,7 +205,7 @@ Finding by_inertia(const CheckSeries& series, const CheckContext& context)
             1 / slope->value),
         off);
   if (off <= slope_tolerance && unsure <= sharp_slope) return part(Verdict::passed, sentence, off);
-  return part(Verdict::undecided, sentence + ", which is too large for a verdict", off);
+  return part(Verdict::undecided, sentence + ": " + why_undecided(*slope), off);
 }
 
 }  // namespace

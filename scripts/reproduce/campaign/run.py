@@ -140,7 +140,7 @@ def cost(_):
     tables; processor times, without killed processes; size of the trajectory."""
     with open("run.log") as log:
         text = log.read()
-    simulation = re.findall(r"(?m)^.* s simulated in (\S+) s", text)[-1:]
+    simulation = re.findall(r"(?m)^.* s simulated (?:.* )?in (\S+) s", text)[-1:]
     used = [float(a) + float(b) for a, b in re.findall(r"(?m)^processor (\S+) \+ (\S+) s", text)]
     made = {name: (float(wall), float(a) + float(b))
             for name, wall, a, b in re.findall(r"(?m)^(\S+) made in (\S+) s, processor (\S+) \+ (\S+) s", text)}

@@ -16,7 +16,8 @@ struct AbsentEffect {
 constexpr auto no_attraction = "contacts do not attract; they have friction and restitution";
 constexpr auto no_springs = "grains are rigid; an impact has restitution, and friction";
 constexpr auto only_two =
-    "there are two species, small and large: size-ratio, phi-large, density-ratio";
+    "there are two species, small and large (size-ratio, phi-large, density-ratio), each with a range of "
+    "sizes (spread); grseg-import makes runs of more species from archives of other programs";
 constexpr auto discs_or_spheres = "grains are discs, or spheres (dimension = 3)";
 constexpr auto no_fluid = "grains are dry, and nothing but contacts and gravity acts on them";
 
@@ -30,6 +31,11 @@ constexpr AbsentEffect absent_effects[] = {
     {"liquid", no_attraction},
     {"bond", no_attraction},
     {"species", only_two},
+    {"third", only_two},
+    {"medium", only_two},
+    {"middle", only_two},
+    {"dispers", only_two},
+    {"distribution", only_two},
     {"stiffness", no_springs},
     {"young", no_springs},
     {"poisson", no_springs},

@@ -133,7 +133,7 @@ TEST(FlowVerdict, SaysThatBFallsAndNeedsRunsRatherThanTime)
       verdict_on({flowing(constant(3), [](double t) { return 0.4 * (1 - t / last); })});
   EXPECT_TRUE(verdict.changes);
   EXPECT_TRUE(holds(text_of(verdict), "not steady: B falls from ")) << text_of(verdict);
-  EXPECT_TRUE(holds(text_of(verdict), " such runs\n")) << text_of(verdict);
+  EXPECT_TRUE(holds(text_of(verdict), " such runs (an order of magnitude)\n")) << text_of(verdict);
   EXPECT_FALSE(holds(text_of(verdict), " s of this flow")) << text_of(verdict);
 }
 

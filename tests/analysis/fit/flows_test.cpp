@@ -148,6 +148,23 @@ TEST(Flows, DifferInTheKeysOfTheirScenesButSeedsAndTimes)
   EXPECT_EQ(flows[2].settings[0], (std::pair<std::string, std::string>{"depth[m]", "0.6"}));
 }
 
+// The text of a scene states keys of all geometries, and the mass of a plate follows from the length
+// of the cell.
+TEST(Flows, AreNotToldApartByKeysOfOtherGeometries)
+{
+  const auto flows_of = [](const std::string& geometry) {
+    std::vector<Table> tables{run_of(0.3), run_of(0.301)};
+    tables[0].header.emplace_back("scene", geometry + "; plate-mass = 1; fill = 0.4");
+    tables[1].header.emplace_back("scene", geometry + "; plate-mass = 2; fill = 0.4");
+    auto read = read_all(tables);
+    return find_flows(read, "auto");
+  };
+  EXPECT_EQ(flows_of("geometry = bed").size(), 1u);
+  const auto flows = flows_of("geometry = shear");
+  ASSERT_EQ(flows.size(), 2u);
+  EXPECT_EQ(flows[1].name, "Phi_L = 0.30, plate-mass = 2");
+}
+
 // Where the slope turns, gravity is recorded as nan, and only the scene tells the slope at t = 0.
 TEST(Flows, ThatTurnDifferInTheirSlopesAtTheStart)
 {

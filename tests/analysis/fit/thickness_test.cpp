@@ -89,6 +89,23 @@ TEST(Thickness, MoreThanStraightProfilesAddIsDoubted)
       << fit.doubt;
 }
 
+// Half of the grains are large ones. They bear the whole stress at B = 2, and more than it where small
+// ones pull.
+TEST(Bounds, ABOfMoreThanTheWholeStressIsDoubted)
+{
+  const auto doubt_at = [](double small, double large) {
+    const auto sums =
+        synthetic::separate_sums(0.5, small * Tensor2::Identity(), large * Tensor2::Identity());
+    return synthetic::fit(synthetic::read({synthetic::stress_table({{0, 1, 10, sums}})}), "size")
+        .doubt;
+  };
+  for (const auto& [small, large] : {std::pair{0.0, 1.0}, {1.0, 0.0}, {0.3, 0.7}})
+    EXPECT_FALSE(synthetic::holds(doubt_at(small, large), "impossible")) << small;
+  EXPECT_TRUE(synthetic::holds(doubt_at(-1, 3), "B = 4 is impossible: "));
+  EXPECT_TRUE(synthetic::holds(doubt_at(3, -1), "lies between -2 and 2; some stresses are"))
+      << doubt_at(3, -1);
+}
+
 TEST(Thickness, KernelsAddTheirVarianceToThatOfTheLayer)
 {
   const LinearBed bed;

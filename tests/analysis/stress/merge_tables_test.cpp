@@ -209,9 +209,6 @@ TEST(MergeTables, TablesMadeDifferentlyAreRefusedWithBothNames)
   b = table("b", {row(0, 0, 1, 1)});
   b.columns.back() = "another";
   EXPECT_EQ(sentence<FormatError>({a, b}), "a.tsv and b.tsv have different columns");
-  b = table("b", {row(0, 0, 1, 1)});
-  b.header[0].second = "grseg-kinetic 0.1.0";
-  EXPECT_TRUE(holds(sentence<FormatError>({a, b}), "b.tsv: was made by grseg-kinetic 0.1.0"));
 }
 
 TEST(MergeTables, TheSameTimeOfOneRunDoesNotCountTwice)

@@ -103,7 +103,7 @@ std::size_t number_of_tables(const std::vector<std::string>& paths)
 {
   po::variables_map values;
   values.insert({"input", po::variable_value(boost::any(paths), false)});
-  return read_tables(values).size();
+  return read_tables(values, {{""}, ""}).size();
 }
 
 TEST_F(InputTables, AreThoseThatTheCommandLineNames)

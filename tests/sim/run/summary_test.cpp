@@ -33,6 +33,22 @@ TEST(Summary, TellsTheSlopeAtTheEndOfARunThatTurns)
   EXPECT_TRUE(says(text_of({}, scene, 4), "22 at t = 4 s"));
 }
 
+// A run to t = 5 s that goes on from 3 s.
+TEST(Summary, TellsThePartOfARunThatContinues)
+{
+  RunSummary summary;
+  summary.simulated = summary.end = 5;
+  summary.wall = 1;
+  const auto text = [&] { return to_text(summary, small_chute::scene(), {}); };
+  EXPECT_TRUE(says(text(), "5 s simulated in 1.0 s (5 s per second)\n"));
+  summary.simulated = 2;
+  summary.simulated_before = 3;
+  summary.wall_before = 0.5;
+  EXPECT_TRUE(says(text(),
+                   "2 s simulated in 1.0 s (2 s per second), from t = 3 s to 5 s; with the "
+                   "part before, 5 s in 1.5 s\n"));
+}
+
 // A bed that moves like a block, by 0.1 m/s.
 TEST(Summary, TellsHowTheBedMovesAtTheEnd)
 {

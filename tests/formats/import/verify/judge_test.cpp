@@ -281,6 +281,17 @@ TEST(JudgeTime, AStepTenTimesTooLongIsRefusedWithTheStepThatFits)
   EXPECT_EQ(time_of(line(0.5, 0.5)).verdict, Verdict::failed);
 }
 
+TEST(JudgeTime, TheLimitStandsBesideTheMeasure)
+{
+  for (const auto& motion : {line(1), line(0.1), line(1.15, 0.3)})
+    EXPECT_TRUE(
+        mentions(time_of(motion).sentence, "velocity times time (limits: 0.9 and 1.1), with"));
+  EXPECT_TRUE(mentions(why_undecided({.value = 1, .error = 0.1}),
+                       "a verdict needs an uncertainty of at most 0.4"));
+  EXPECT_TRUE(mentions(why_undecided({.value = 1.15, .error = 0.02}),
+                       "beyond a limit by less than its uncertainty"));
+}
+
 TEST(JudgeTime, APackingAtRestProvesNothing)
 {
   EXPECT_EQ(time_of({}).verdict, Verdict::undecided);

@@ -405,7 +405,8 @@ TEST_F(SceneFile, AnEffectThatNoSceneHasIsAnsweredWithWhatThereIs)
                 ":2: unknown key 'cohesion': in grseg-sim contacts do not attract; they have "
                 "friction and restitution; docs/guide/limits.md names programs with more");
   EXPECT_NE(absent_effect("rolling_friction").find("do not resist rolling"), std::string::npos);
-  EXPECT_NE(absent_effect("species").find("size-ratio, phi-large"), std::string::npos);
+  for (const char* key : {"species", "third-diameter", "medium_diameter", "polydispersity"})
+    EXPECT_NE(absent_effect(key).find("size-ratio, phi-large"), std::string::npos) << key;
   for (const auto& key : scene_keys()) EXPECT_EQ(absent_effect(key.name), "") << key.name;
 }
 
