@@ -71,7 +71,8 @@ export function table(columns, rows, caption) {
 /** A sentence of the tools as texts and elements: numbers are rounded, and stay in one line with their unit; so do options. */
 export function sentence(text) {
   const shown = rounded(text).replace(/\+-/g, "±").replace(/(?<= )-(?=\d)/g, "−");
-  const wholes = /(--[a-z][\w-]*(?: [\d.]+)?|(?:t = |B ± )?−?\d\S*(?: ± \d\S*)?(?: (?:s|m\/s|dS)\b)?)/;
+  const number = String.raw`−?\d*\.?\d+(?:e[-+−]?\d+)?`;
+  const wholes = RegExp(String.raw`(--[a-z][\w-]*(?: ${number})?|(?:t = |B ± )?${number}(?: ± ${number})?(?: (?:s|m/s|dS)\b)?)`);
   return shown.split(wholes).map((part, k) => (k % 2 ? element("span", {class: "whole"}, part) : part));
 }
 
