@@ -222,7 +222,7 @@ export class Share {
     };
     put("p-number", p, 3);
     put("q-number", rule.kind === "power" ? rule.value : NaN, 2);
-    byId("q-number").placeholder = Q.toFixed(2); // that of the same share
+    byId("q-number").placeholder = Q.toFixed(2); // Q of the same share
     for (const [word, button] of this.buttons) button.setAttribute("aria-pressed", String(word === rule.kind));
     const [large, small] = apart([p, 1 - p], fixed, 3);
     const text = Number.isFinite(p)
