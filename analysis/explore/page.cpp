@@ -34,12 +34,12 @@ void add_result(const Json& fit, const std::string& rule, std::map<std::string, 
   texts["verdict"] = list_of(fit["verdict"]);
   auto doubts = fit["doubts"];
   for (const auto& own : fit["rules"]) {
-    const auto& B = own["B"];
-    if (own["name"] != rule || !std::isfinite(B[0].get<double>())) continue;
-    texts["B"] = three_decimals(B[0]);
+    const auto& b = own["B"];
+    if (own["name"] != rule || !std::isfinite(b[0].get<double>())) continue;
+    texts["B"] = three_decimals(b[0]);
     if (const auto doubt = own["doubt"].get<std::string>(); !doubt.empty()) doubts.push_back(doubt);
-    if (!std::isfinite(B[1].get<double>())) continue;
-    texts["interval"] = fmt::format("[{}, {}] (95 %)", three_decimals(B[1]), three_decimals(B[2]));
+    if (!std::isfinite(b[1].get<double>())) continue;
+    texts["interval"] = fmt::format("[{}, {}] (95 %)", three_decimals(b[1]), three_decimals(b[2]));
     texts["over"] = xml_escaped(fmt::format("95 % over {}: {}.", fit["over"].get<std::string>(),
                                             fit["over_words"].get<std::string>()));
   }
