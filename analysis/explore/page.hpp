@@ -13,8 +13,8 @@ namespace grseg {
 /// are not UTF-8 are replaced.
 std::string json_for_page(const nlohmann::ordered_json& json);
 
-/// HTML of the whole page: the JavaScript of analysis/explore/page, `content` as JSON, and the arrays of
-/// each run (BinaryArrays::base64).
+/// HTML of the whole page: B, its verdict and doubts as text, the JavaScript of analysis/explore/page, `content`
+/// as JSON, and the arrays of each run (BinaryArrays::base64).
 std::string page_of(const nlohmann::ordered_json& content, const std::vector<std::string>& arrays);
 
 /// HTML before and after the data, which the build makes from analysis/explore/page (page.cmake).

@@ -196,9 +196,11 @@ def check_readout(page):
     doubts = re.findall(r"^# doubt: (?!size: )(?:(?:size, )?half: )?(.*)$", told, re.MULTILINE)
     shown = page.run("return Array.from(document.querySelectorAll('#b-doubts li'), (e) => e.textContent)")
     assert [text[:20] for text in shown] == [text[:20] for text in doubts], (shown, doubts)
-    for texts in ([], ["flowing", "steady since t = 10 s"]):
+    for texts in ([], ["flowing", "steady since t = 10 s", "B changes by -0.009 +- 0.1, or --begin 4"]):
         page.run("grseg.page.fit.verdict = arguments[0]; grseg.set({rule: {kind: 'size', value: NaN}}); grseg.flush()", texts)
-        assert page.run("return Array.from(document.querySelectorAll('#b-verdict li'), (e) => e.textContent)") == [f"{text}." for text in texts]
+        assert page.run("return Array.from(document.querySelectorAll('#b-verdict li'), (e) => e.textContent)") == [f"{text}.".replace("by -", "by −").replace("+-", "±") for text in texts]
+    whole = page.run("return Array.from(document.querySelectorAll('#b-verdict .whole'), (e) => e.textContent)")
+    assert whole == ["t = 10 s", "−0.009 ± 0.1", "--begin 4"], whole
 
 
 def check_contrast(page):

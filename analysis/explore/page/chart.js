@@ -6,7 +6,7 @@ import {minus} from "./format.js";
 
 let charts = 0; // number of charts made so far, for ids
 
-export const margin = {top: 22, right: 14, bottom: 38, left: 46};
+export const margin = {top: 27, right: 14, bottom: 38, left: 46};
 
 /** Writes a label such as "σ^S/σ_{yy}" into an SVG text; ^ starts a superscript, _ a subscript. */
 function setLabel(text, label) {

@@ -68,10 +68,18 @@ export function table(columns, rows, caption) {
   );
 }
 
+/** A sentence of the tools as texts and elements: numbers are rounded, and stay in one line with their unit; so do options. */
+export function sentence(text) {
+  const shown = rounded(text).replace(/\+-/g, "±").replace(/(?<= )-(?=\d)/g, "−");
+  const number = String.raw`−?\d*\.?\d+(?:e[-+−]?\d+)?`;
+  const wholes = RegExp(String.raw`(--[a-z][\w-]*(?: ${number})?|(?:t = |B ± )?${number}(?: ± ${number})?(?: (?:s|m/s|dS)\b)?)`);
+  return shown.split(wholes).map((part, k) => (k % 2 ? element("span", {class: "whole"}, part) : part));
+}
+
 /** Fills a list with sentences, without full stops, and hides it if there are none. */
 export function listOf(list, sentences) {
   list.hidden = !sentences.length;
-  list.replaceChildren(...sentences.map((text) => element("li", {}, rounded(`${text}.`).replace(/\+-/g, "±"))));
+  list.replaceChildren(...sentences.map((text) => element("li", {}, ...sentence(`${text}.`))));
   return list;
 }
 

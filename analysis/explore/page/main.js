@@ -21,13 +21,6 @@ const content = readContent();
 const {runs} = content;
 const all = [...runs, ...(content.together ? [content.together] : [])];
 
-function nameThePage() {
-  const names = runs.map((run) => run.name).join(", ");
-  document.title = `${names} – grseg`;
-  byId("title").textContent = names;
-  byId("made-by").textContent = `Made by ${content.program}; it loads nothing from the network.`;
-}
-
 /** Reads the arrays of each run and, if there are several runs, of all together; each fit gets the same arrays. */
 async function readAll() {
   const arrays = await Promise.all(all.map((one, k) => readArrays(k, one.arrays)));
@@ -43,6 +36,7 @@ function showTab(name) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(tab === name));
     byId(`tab-${tab}`).tabIndex = tab === name ? 0 : -1;
   }
+  byId("to-report").hidden = name === "report";
   set({tab: name});
   window.scrollTo(0, 0);
   window.dispatchEvent(new Event("resize")); // draws the tab, which may have changed while hidden
@@ -240,7 +234,6 @@ function listenToAll(page) {
 }
 
 async function start() {
-  nameThePage();
   listenToTabs();
   await readAll();
   describeColours();

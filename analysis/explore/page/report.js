@@ -98,7 +98,7 @@ function profileFigures(run) {
 
 /** A button that saves a table as tab-separated text. */
 function saveButton(name, {columns, rows}) {
-  const button = element("button", {class: "quiet save"}, "Save as TSV");
+  const button = element("button", {class: "save"}, "Save as TSV");
   button.addEventListener("click", () => {
     const lines = [columns, ...rows.map((row) => row.map((v) => v ?? "nan"))].map((row) => row.join("\t"));
     const link = element("a", {download: `${name}.tsv`});
@@ -163,7 +163,7 @@ function fitSection(fit, heading) {
     element("p", {}, Number.isFinite(zero[0]) ? `p* = ${estimate(zero)}: at this share B is 0. ` : "", fit.rules.some(({B: [, low]}) => low !== null) ? `${several ? "The intervals of all flows are" : "95 % intervals are"} over ${fit.over}: ${fit.over_words}.` : ""),
     undecided.length ? element("p", {}, `The sign of B is undecided under ${undecided.join(", ")}: the interval includes 0. A longer run, or further runs with other seeds, make the interval narrower.`) : null,
     listOf(element("ul", {class: "doubt"}), [...fit.doubts, ...Array.from(doubts, ([doubt, names]) => `${names.size < all ? `${[...names].join(", ")}: ` : ""}${doubt}`)]),
-    element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => `${key} ${value}`).join("; "), "."),
+    element("p", {class: "note"}, Object.entries(fit.settings).map(([key, value]) => (key === "rows" ? value : `${key} ${value}`)).join("; "), "."),
   );
 }
 
@@ -282,7 +282,7 @@ function accuracySection(run) {
     "section",
     {},
     element("h3", {}, "Accuracy reached"),
-    run.accuracy.length ? pairs(parameters(run, run.accuracy)) : element("p", {}, "The file has no summary of the run."),
+    run.accuracy.length ? pairs(parameters(run, run.accuracy.filter(([, value]) => value !== "nan"))) : element("p", {}, "The file has no summary of the run."),
     observed.length
       ? element("details", {}, element("summary", {}, "Observables over all frames"), element("div", {class: "scroll"}, table([["observable"], ["unit"], ["mean", "number"], ["largest", "number"]], observed)))
       : null,

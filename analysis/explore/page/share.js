@@ -3,7 +3,7 @@
 
 import {Chart, margin, upright} from "./chart.js";
 import {area, line, scaleLinear} from "./d3.js";
-import {apart, byId, element, fixed, interval, keys, listOf, percent, rounded} from "./format.js";
+import {apart, byId, element, fixed, interval, keys, listOf, percent, sentence} from "./format.js";
 import {commandRule, fitOf, hasPowers, intervalOf, isShare, neutralSums} from "./partition.js";
 import {numberedRule, parseRule, ruleName, shareOf, zeroOf} from "./partition.js";
 import {Parts} from "./parts.js";
@@ -222,6 +222,7 @@ export class Share {
     };
     put("p-number", p, 3);
     put("q-number", rule.kind === "power" ? rule.value : NaN, 2);
+    byId("q-number").placeholder = Q.toFixed(2); // Q of the same share
     for (const [word, button] of this.buttons) button.setAttribute("aria-pressed", String(word === rule.kind));
     const [large, small] = apart([p, 1 - p], fixed, 3);
     const text = Number.isFinite(p)
@@ -244,7 +245,7 @@ export class Share {
     const known = Number.isFinite(B) ? interval(band) : "";
     byId("b-interval").textContent = known && `${known} (95 %${of && `, ${of}`})`;
     const {windows, window, times} = fit.settings;
-    byId("b-over").textContent = rounded(`${known && `95 % over ${fit.over}: ${fit.over_words}. `}From ${windows} window${windows === "1" ? "" : "s"} of ${window}, t = ${times}.`);
+    byId("b-over").replaceChildren(...sentence(`${known && `95 % over ${fit.over}: ${fit.over_words}. `}From ${windows} window${windows === "1" ? "" : "s"} of ${window}, t = ${times}.`));
     listOf(byId("b-verdict"), fit.verdict);
     listOf(byId("b-doubts"), Number.isFinite(B) ? doubts : fit.doubts);
     const [low, high] = band;
