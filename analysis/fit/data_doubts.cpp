@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/data_doubts.hpp"
 
+#include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
+#include "formats/cli/provenance.hpp"
 #include "formats/core/text.hpp"
 
 #include <fmt/format.h>
@@ -39,13 +41,26 @@ std::string doubt_of_merged(const std::vector<Table>& tables)
   return "";
 }
 
+/// Warning that a table has horizontal layers of a drum; "" if there is none.
+std::string doubt_of_layers(const std::vector<Table>& tables)
+{
+  for (const auto& table : tables)
+    if (header_or(table, "scene", "").find("geometry = drum;") != std::string::npos &&
+        !plane_of(table) && !has_annuli(table))
+      return fmt::format(
+          "{} has horizontal layers of a drum, which cross its flowing layer and the bed beneath: take "
+          "grseg-stress --bins xy, then --component pressure here",
+          printable(table.name));
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
                                           const std::vector<FitTable>& read, const FitData& data)
 {
   std::vector<std::string> doubts{find_runs(tables).doubt(tables), doubt_of_flows(read),
-                                  doubt_of_merged(tables)};
+                                  doubt_of_merged(tables), doubt_of_layers(tables)};
   std::erase(doubts, "");
   if (data.still > 0)
     doubts.push_back(fmt::format(

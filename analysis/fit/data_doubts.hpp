@@ -8,9 +8,9 @@
 
 namespace grseg {
 
-/// Reasons why windows and runs may not be independent, one sentence each; usually an empty list.
-/// Reasons are: two runs that may be the same run, flows that share a run, and windows between
-/// which no grain moves.
+/// Reasons why windows and runs may not be independent, or why layers mean little, one sentence each;
+/// usually an empty list. Reasons are: two runs that may be the same run, flows that share a run, a
+/// mean of several runs, windows between which no grain moves, and layers in a drum.
 std::vector<std::string> doubts_of_tables(const std::vector<Table>& tables,
                                           const std::vector<FitTable>& read, const FitData& data);
 

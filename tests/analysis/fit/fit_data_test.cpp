@@ -117,6 +117,21 @@ TEST(FitData, AMeanOfRunsOfSeveralSeedsIsDoubted)
   EXPECT_TRUE(synthetic::holds(found[0], "is the mean of 2 runs of other seeds")) << found[0];
 }
 
+TEST(FitData, HorizontalLayersOfADrumAreDoubtedAndItsAnnuliAreNot)
+{
+  auto table = table_of_run({"grseg-sim a.ini"}, 0, 0.1);
+  table.header.emplace_back("scene", "spread = 0; geometry = drum; fill = 0.4");
+  const auto doubts = [&] {
+    const std::vector<Table> tables{table};
+    return doubts_of_tables(tables, synthetic::read_all(tables), read(tables));
+  };
+  const auto found = doubts();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(synthetic::holds(found[0], "has horizontal layers of a drum")) << found[0];
+  table.header.emplace_back("bins", "radius");
+  EXPECT_TRUE(doubts().empty());
+}
+
 TEST(FitData, WindowsInWhichNothingMovesAreOneObservationWithoutAnInterval)
 {
   const auto still = table_of_run({"grseg-sim a.ini"}, 0, 1e-9);
