@@ -14,9 +14,10 @@
 #include <numbers>
 #include <numeric>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -65,16 +66,18 @@ std::vector<Flow> by_count(const std::vector<FitTable>& tables, const std::strin
   return flows;
 }
 
-/// Tables are compared in order of composition, so that their order has no effect.
+/// Tables are compared in order of Phi_L, and those without a scene, which may be of any flow, last,
+/// so that their own order has no effect.
 std::vector<Flow> by_likeness(const std::vector<FitTable>& tables)
 {
-  std::vector<std::pair<std::vector<double>, std::size_t>> order;
+  std::vector<std::tuple<bool, double, std::size_t>> order;
   for (std::size_t k = 0; k < tables.size(); ++k)
-    order.emplace_back(composition_of(tables, {k}), k);
+    order.emplace_back(scene_of(*tables[k].table).empty(), composition_of(tables, {k}).back(), k);
   std::ranges::sort(order);
   std::vector<Flow> flows;
-  for (const auto& [composition, k] : order) {
-    const auto is_own = [&, &composition = composition, k = k](const Flow& flow) {
+  for (const auto& [no_scene, phi_large, k] : order) {
+    const auto composition = composition_of(tables, {k});
+    const auto is_own = [&, k = k](const Flow& flow) {
       const auto& first = *tables[flow.tables.front()].table;
       return same_composition(flow.composition, composition) &&
              scene_differences(first, *tables[k].table).empty() &&

@@ -34,7 +34,7 @@ TEST(Flows, TablesThatDifferInTheirSeedAloneAreRunsOfOne)
   EXPECT_EQ(read[3].flow, 1u);
 }
 
-// 0.3 and 0.315 are of one flow, as 0.315 and 0.33 would be.
+// 0.315 is as near to 0.3 as to 0.33.
 TEST(Flows, AreTheSameInAnyOrderOfTheTables)
 {
   std::vector<double> compositions{0.3, 0.315, 0.33};

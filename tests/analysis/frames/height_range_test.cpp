@@ -79,7 +79,7 @@ TEST(MedianSolid, LeavesOutWhatIsEmptyOrNotANumber)
 {
   const auto median = [](const std::vector<double>& solid) {
     std::vector<LayerSolid> layers;
-    for (const double one : solid) layers.push_back({.solid = one});
+    for (const double one : solid) layers.push_back({{}, one});
     return median_solid(layers);
   };
   EXPECT_EQ(median({0, 3, 0, 1, 2, 0, 0, std::nan("")}), 2);
