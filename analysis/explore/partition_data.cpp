@@ -63,13 +63,16 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
   }
 }
 
-/// Means over time of each layer, over all tables; the result looks like samples of a single window.
-FitData layer_means(const std::vector<FitTable>& tables, const SpeciesPair& pair)
+/// Means of each layer over the times of the filter and all tables; the result looks like samples of a
+/// single window.
+FitData layer_means(const std::vector<FitTable>& tables, const RowFilter& filter,
+                    const SpeciesPair& pair)
 {
   std::map<std::pair<double, double>, std::vector<const FitRow*>> rows;
   for (const auto& table : tables)
     for (const auto& row : table.rows)
-      if (row.key.frames > 0) rows[{row.key.bottom, row.key.top}].push_back(&row);
+      if (row.key.frames > 0 && filter.holds_window(row.key))
+        rows[{row.key.bottom, row.key.top}].push_back(&row);
   FitData data;
   data.species = tables.front().species;
   for (const auto& table : tables) data.tables.push_back(table.table->name);
@@ -110,7 +113,7 @@ Selected select(const std::vector<Table>& tables, const std::vector<PartitionRul
   find_flows(all.tables, "auto");
   const auto pair = settings.pair.empty() ? SpeciesPair{} : parse_pair(settings.pair, species);
   all.samples = select_fit_data(all.tables, Quantity::contact, settings.filters, {pair});
-  all.layers = layer_means(all.tables, pair);
+  all.layers = layer_means(all.tables, settings.filters, pair);
   return all;
 }
 

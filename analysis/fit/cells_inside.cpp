@@ -21,7 +21,7 @@ struct Axis {
   long cells;
   bool periodic, at_axis;
 
-  Axis(const std::vector<CellSolid>& rows, double LayerKey::*begin, double LayerKey::*end,
+  Axis(const std::vector<LayerSolid>& rows, double LayerKey::*begin, double LayerKey::*end,
        bool is_periodic, bool is_at_axis)
       : periodic(is_periodic), at_axis(is_at_axis)
   {
@@ -47,7 +47,7 @@ struct Axis {
 /// Cells with at least half the median solid fraction.
 class FilledCells {
  public:
-  FilledCells(const std::vector<CellSolid>& rows, const OpenEnds& ends)
+  FilledCells(const std::vector<LayerSolid>& rows, const OpenEnds& ends)
       : x_(rows, &LayerKey::left, &LayerKey::right, ends.periodic[0], ends.at_axis),
         y_(rows, &LayerKey::bottom, &LayerKey::top, ends.periodic[1], false)
   {
@@ -55,14 +55,12 @@ class FilledCells {
       double solid = 0, frames = 0;
     };
     std::map<Place, Mean> means;
-    std::vector<LayerSolid> all;
     for (const auto& row : rows) {
       auto& mean = means[{x_.at(row.key.left), y_.at(row.key.bottom)}];
       mean.solid += row.key.frames * row.solid;
       mean.frames += row.key.frames;
-      all.push_back({.solid = row.solid});
     }
-    const double half = median_solid(all) / 2;
+    const double half = median_solid(rows) / 2;
     for (const auto& [place, mean] : means)
       if (mean.solid >= half * mean.frames && mean.solid > 0) filled_.insert(place);
   }
@@ -91,12 +89,12 @@ class FilledCells {
 
 }  // namespace
 
-std::vector<bool> cells_inside(const std::vector<CellSolid>& rows, const OpenEnds& ends,
+std::vector<bool> cells_inside(const std::vector<LayerSolid>& rows, const OpenEnds& ends,
                                double margin)
 {
   if (rows.empty()) return {};
   const FilledCells cells(rows, ends);
-  return listed(rows, [&](const CellSolid& row) { return cells.all_near(row.key, margin); });
+  return listed(rows, [&](const LayerSolid& row) { return cells.all_near(row.key, margin); });
 }
 
 HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin)
@@ -106,10 +104,11 @@ HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin)
   HeightRange range{infinity, -infinity};
   double inner = 0;  // solid fraction of the next annulus inside
   for (const auto& mean : mean_layers(annuli)) {
-    if (mean.solid >= half) range.lowest = std::min(range.lowest, mean.bottom);
+    const auto& [bottom, top] = std::pair(mean.key.bottom, mean.key.top);
+    if (mean.solid >= half) range.lowest = std::min(range.lowest, bottom);
     if (mean.solid > 0) {
       const double filled = std::min(1.0, mean.solid / inner);
-      range.highest = mean.bottom + filled * (mean.top - mean.bottom) - margin;
+      range.highest = bottom + filled * (top - bottom) - margin;
     }
     inner = mean.solid;
   }

@@ -9,12 +9,6 @@
 
 namespace grseg {
 
-/// A cell of a map in one window.
-struct CellSolid {
-  LayerKey key;
-  double solid = 0;  // area, volume or mass of the grains over the cell's volume
-};
-
 /// Ends of a map where its bed goes on, along its two axes: all of a periodic axis, and the axis of
 /// a drum at r = 0.
 struct OpenEnds {
@@ -25,7 +19,7 @@ struct OpenEnds {
 /// True for each row whose cell is inside the bed, for `--heights inside` of a map: no cell within
 /// `margin` (m) of it is empty, or filled to less than half the median solid fraction, averaged over
 /// windows. Beyond an end of the map that is not open there are no grains.
-std::vector<bool> cells_inside(const std::vector<CellSolid>& rows, const OpenEnds& ends,
+std::vector<bool> cells_inside(const std::vector<LayerSolid>& rows, const OpenEnds& ends,
                                double margin);
 
 /// The range of distances from the axis (m), for `--heights inside` of annuli: from the innermost

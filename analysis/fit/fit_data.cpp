@@ -122,9 +122,7 @@ std::vector<FitRow> read_rows(const Table& table, const SpeciesList& species, Qu
 
 std::vector<LayerSolid> layers_of(const std::vector<FitRow>& rows)
 {
-  return listed(rows, [](const FitRow& row) {
-    return LayerSolid{row.key.bottom, row.key.top, row.key.frames, row.solid()};
-  });
+  return listed(rows, [](const FitRow& row) { return LayerSolid{row.key, row.solid()}; });
 }
 
 /// The member of FilterCount that counts this row: `used`, or the reason why it is left out.
@@ -175,19 +173,20 @@ struct UsedRows {
 };
 
 /// True for each row of a table that --heights selects, as far as a range of heights does not tell:
-/// cells of a map that are `inside`.
+/// cells of a map that are `inside`. Rows outside the times of the filter count as not selected.
 std::vector<bool> rows_inside(const FitTable& run, const FitFilters& filters, double small_diameter)
 {
   const auto plane = plane_of(*run.table);
   if (!plane || filters.heights != inside_the_bed) return std::vector<bool>(run.rows.size(), true);
-  const auto cells = listed(run.rows, [](const FitRow& row) {
-    return CellSolid{row.key, row.solid()};
-  });
   const std::string axes = word_of(*plane, map_planes);
   const auto periodic = header_or(*run.table, "periodic", "");
   const auto goes_on = [&](char axis) { return periodic.find(axis) != std::string::npos; };
-  return cells_inside(cells, {{goes_on(axes[0]), goes_on(axes[1])}, plane == MapPlane::rz},
-                      margin_inside * small_diameter);
+  const auto cells = cells_inside(filters.in_times(layers_of(run.rows)),
+                                  {{goes_on(axes[0]), goes_on(axes[1])}, plane == MapPlane::rz},
+                                  margin_inside * small_diameter);
+  auto next = cells.begin();
+  return listed(run.rows,
+                [&](const FitRow& row) { return filters.holds_window(row.key) && *next++; });
 }
 
 /// The rows of a table that a filter selects; maps and annuli have their own meaning of `inside`.
@@ -204,7 +203,8 @@ RowRange range_of(const FitTable& run, const FitFilters& filters, const LengthUn
                     own.heights, run.table->name, word_of(*plane, map_planes)));
   const auto layers = layers_of(run.rows);
   auto range = own.range(units, layers);
-  if (inside && annuli) range.heights = annuli_inside(layers, margin_inside * units.small_diameter);
+  if (inside && annuli)
+    range.heights = annuli_inside(own.in_times(layers), margin_inside * units.small_diameter);
   return range;
 }
 

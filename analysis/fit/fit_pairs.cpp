@@ -139,7 +139,7 @@ FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSett
 {
   const auto fit = [&](const FitData& of, const FitSettings& how) {
     auto found = fit_rule(of, rule, how);
-    if (rule.adds_up()) found.line = line_over_share(of, how, found.over);
+    found.line = line_over_share(of, how, found.over);
     return found;
   };
   FlowFits fits{fit(data, settings), {}};
@@ -234,12 +234,7 @@ PartitionScan scan_partition(const FitData& data, const ScanRange& range,
                              const FitSettings& settings,
                              const std::function<void(double shares)>& tell)
 {
-  PartitionScan scan;
-  double done = 0;
-  for (const double share : range.shares()) {
-    scan.fits.push_back(fit_rule(data, {PartitionRule::Kind::uniform, share}, settings));
-    if (tell) tell(++done);
-  }
+  PartitionScan scan{fit_shares(data, range.shares(), settings, tell), {}};
   scan.line = line_over_share(data, settings, scan.fits.front().over);
   return scan;
 }

@@ -65,7 +65,7 @@ struct PartitionScan {
   LineOverShare line;         // p* and dB/dp
 };
 
-/// Fits uniform:p for all shares of `range`. `tell` is called with the number of shares done so far.
+/// fit_shares() for all shares of `range`, and the line.
 PartitionScan scan_partition(const FitData& data, const ScanRange& range,
                              const FitSettings& settings,
                              const std::function<void(double shares)>& tell = {});

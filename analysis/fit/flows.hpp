@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/fit/fit_data.hpp"
+#include "analysis/frames/flow_of_table.hpp"
 
 #include <cstddef>
 #include <string>
@@ -13,7 +14,7 @@ namespace grseg {
 /// A flow: tables of runs that agree in all recorded settings except the seed.
 struct Flow {
   std::string name;                 // settings that differ: "Phi_L = 0.06, slope = 21 degrees"
-  std::vector<double> composition;  // each species' share of the grains' area, volume or mass
+  std::vector<double> composition;  // each species' share of all grains' area, volume or mass
   std::vector<std::size_t> tables;  // indices in the list of tables
   // Names and values of settings in which flows differ, except composition: "slope[degree]" and
   // "21", "initial" and "mixed".
@@ -21,16 +22,6 @@ struct Flow {
 
   double phi_large() const { return composition.back(); }
 };
-
-/// Largest difference between the overall compositions of two runs of one flow. Seeds change the
-/// composition by about 0.001, because radii are drawn at random; cells of a few hundred grains
-/// may also have one large grain more or less.
-inline constexpr double composition_tolerance = 0.02;
-
-/// Largest difference between the nominal diameters of two runs of one flow, relative to the larger
-/// diameter. For imported runs the nominal diameter is measured: the mean of the smallest and the
-/// largest grain of a species. For n grains spread evenly over +-10 % it scatters by 0.14/n.
-inline constexpr double diameter_tolerance = 0.01;
 
 /// Sentence for the header of the fit on how tables are grouped into flows, with the settings that
 /// the tables record.

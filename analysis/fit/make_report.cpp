@@ -264,9 +264,7 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
       s.over.empty() ? Population::automatic : choose(s.over, "--over", populations),
       choose(s.thickness, "--thickness", thicknesses)};
   const auto rules = rules_of(s, tables[0]);
-  auto read = rules;
-  read.push_back({PartitionRule::Kind::uniform});  // for p*
-  auto all = read_fit_tables(tables, report.quantity, read);
+  auto all = read_fit_tables(tables, report.quantity, rules);
   report.flows = find_flows(all, s.flows);
   for (const auto& table : tables) report.table_names.push_back(table.name);
   report.shared_runs = tables_of_shared_runs(all);

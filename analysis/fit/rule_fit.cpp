@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grseg {
@@ -135,7 +136,53 @@ std::vector<FitPoint> points_at(const FitData& data, double share, const FitSett
   return fit_points(data, {PartitionRule::Kind::uniform, share}, settings);
 }
 
-/// The share p at which uniform:p gives the B of `points`: (B - B(0))/(B(1) - B(0)).
+/// True if B(p) is a straight line: if the total stress does not depend on p (LineOverShare).
+bool is_straight(const FitData& data)
+{
+  return data.species.size() == 2 && std::ranges::none_of(data.rows, &ContactSums<3>::at_centres);
+}
+
+/// Sums by window at one share p, from which B(p) and its slope follow.
+struct AtShare {
+  WindowSums value;       // sums of psi_L - phi_L
+  WindowSums derivative;  // the same sums with d psi_L/dp in place of psi_L - phi_L
+};
+
+AtShare at_share(const FitData& data, double share, const FitSettings& settings)
+{
+  const auto none = points_at(data, 0, settings), all = points_at(data, 1, settings);
+  const auto points = points_at(data, share, settings);
+  auto slopes = points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto own = [k](const std::vector<FitPoint>& at) {
+      return at[k].large - at[k].within * at[k].total;
+    };
+    const double large = own(all) - own(none), total = all[k].total - none[k].total;
+    const double psi = own(points) / points[k].total;
+    slopes[k].large = slopes[k].phi_large + (large - psi * total) / points[k].total;
+    slopes[k].total = points[k].total > 0 ? 1 : 0;
+    slopes[k].within = 0;
+  }
+  return {window_sums(points, data.runs), window_sums(slopes, data.runs)};
+}
+
+/// The share p at which B(p) = b, by Newton's method from `share`: one step if B(p) is a straight
+/// line.
+double share_with(double b, double share, const FitData& data, const FitSettings& settings)
+{
+  for (int step = 0; step < 8; ++step) {
+    const auto at = at_share(data, share, settings);
+    const double change =
+        (at.value.excess().sum() - b * at.value.weight().sum()) / at.derivative.excess().sum();
+    if (!std::isfinite(change)) return change;
+    share -= change;
+    if (std::abs(change) < 1e-14) break;
+  }
+  return share;
+}
+
+/// The share p at which uniform:p gives the B of `points`. If B(p) is a straight line, it is
+/// (B - B(0))/(B(1) - B(0)).
 double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
                       const FitSettings& settings)
 {
@@ -146,7 +193,53 @@ double share_of_large(const FitData& data, const std::vector<FitPoint>& points,
     given += points[k].frames * (points[k].excess() - none[k].excess());
     mixed += points[k].frames * (all[k].excess() - none[k].excess());
   }
-  return given / mixed;
+  return is_straight(data) ? given / mixed
+                           : share_with(estimators_of(points).B, given / mixed, data, settings);
+}
+
+/// Numbers under uniform:p from which a fit follows. They are linear in p if B(p) is.
+struct OfShare {
+  WindowSums windows;
+  double of_thickness, neutral;
+};
+
+OfShare of_share(const FitData& data, double share, const FitSettings& settings)
+{
+  const PartitionRule rule{PartitionRule::Kind::uniform, share};
+  const auto points = fit_points(data, rule, settings);
+  return {window_sums(points, data.runs), part_of_thickness(data, rule, settings),
+          data.species.size() > 2 ? no_number : neutral_mean(points, rule)};
+}
+
+OfShare between(const OfShare& none, const OfShare& all, double share)
+{
+  OfShare at = none;
+  at.windows.sums += share * (all.windows.sums - none.windows.sums);
+  at.windows.noise += share * (all.windows.noise - none.windows.noise);
+  at.of_thickness += share * (all.of_thickness - none.of_thickness);
+  at.neutral += share * (all.neutral - none.neutral);
+  return at;
+}
+
+/// B with its interval over settings.over, and doubts; no other estimator.
+RuleFit fit_of_b(const FitData& data, double share, const OfShare& numbers,
+                 const FitSettings& settings)
+{
+  const auto& windows = numbers.windows;
+  RuleFit fit;
+  fit.rule = {PartitionRule::Kind::uniform, share};
+  fit.pair = data.samples.front().pair;
+  fit.points = data.samples.size();
+  fit.runs = data.runs.size();
+  fit.over = resolved(settings.over, fit.runs, data.number_of_flows());
+  fit.value.B = estimators_from_sums(windows.total()).B;
+  set_error(fit, &Estimators::B,
+            Errors(data, windows.weight()).over(fit.over, influence_on(&Estimators::B, windows)));
+  fit.neutral = numbers.neutral;
+  fit.of_thickness = numbers.of_thickness;
+  fit.doubt = doubt_of(fit, data, windows);
+  add_doubt(fit, doubt_of_thickness(fit, settings));
+  return fit;
 }
 
 }  // namespace
@@ -221,6 +314,24 @@ RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettin
   return fit;
 }
 
+std::vector<RuleFit> fit_shares(const FitData& data, const std::vector<double>& shares,
+                                const FitSettings& settings,
+                                const std::function<void(double shares)>& tell)
+{
+  std::optional<OfShare> none, all;
+  if (is_straight(data)) {
+    none = of_share(data, 0, settings);
+    all = of_share(data, 1, settings);
+  }
+  std::vector<RuleFit> fits;
+  for (const double share : shares) {
+    const auto numbers = none ? between(*none, *all, share) : of_share(data, share, settings);
+    fits.push_back(fit_of_b(data, share, numbers, settings));
+    if (tell) tell(static_cast<double>(fits.size()));
+  }
+  return fits;
+}
+
 Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& windows,
                const std::vector<FitPoint>& others)
 {
@@ -229,55 +340,13 @@ Measured minus(const RuleFit& fit, const FitData& data, const WindowSums& window
   return {fit.value.B - estimators_of(others).B, Errors(data, windows).over(fit.over, influence)};
 }
 
-namespace {
-
-/// Sums by window at one share p, from which B(p) and its slope follow.
-struct AtShare {
-  WindowSums value;       // sums of psi_L - phi_L
-  WindowSums derivative;  // the same sums with d psi_L/dp in place of psi_L - phi_L
-};
-
-AtShare at_share(const FitData& data, double share, const FitSettings& settings)
-{
-  const auto none = points_at(data, 0, settings), all = points_at(data, 1, settings);
-  const auto points = points_at(data, share, settings);
-  auto slopes = points;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto own = [k](const std::vector<FitPoint>& at) {
-      return at[k].large - at[k].within * at[k].total;
-    };
-    const double large = own(all) - own(none), total = all[k].total - none[k].total;
-    const double psi = own(points) / points[k].total;
-    slopes[k].large = slopes[k].phi_large + (large - psi * total) / points[k].total;
-    slopes[k].total = points[k].total > 0 ? 1 : 0;
-    slopes[k].within = 0;
-  }
-  return {window_sums(points, data.runs), window_sums(slopes, data.runs)};
-}
-
-/// The share p at which B(p) = 0, by Newton's method: one step if B(p) is a straight line.
-double zero_of_b(const FitData& data, const FitSettings& settings)
-{
-  double share = 0.5;
-  for (int step = 0; step < 8; ++step) {
-    const auto at = at_share(data, share, settings);
-    const double change = at.value.excess().sum() / at.derivative.excess().sum();
-    if (!std::isfinite(change)) return change;
-    share -= change;
-    if (std::abs(change) < 1e-14) break;
-  }
-  return share;
-}
-
-}  // namespace
-
 // Influence of a window w is E_w/(-dE/dp) on p* and (dE_w/dp - dB/dp Q_w)/Q on dB/dp. E is the sum
 // of psi_L - phi_L over frames and layers, Q the sum of phi_L phi_S; E_w and Q_w are sums over w.
 // Errors subtracts multiples of the weights Q_w itself.
 LineOverShare line_over_share(const FitData& data, const FitSettings& settings, Population over)
 {
   if (data.quantity != Quantity::contact || data.species.size() > 2) return {};
-  const double zero = zero_of_b(data, settings);
+  const double zero = share_with(0, 0.5, data, settings);
   if (!std::isfinite(zero)) return {};
   const auto at = at_share(data, zero, settings);
   const Eigen::VectorXd weight = at.value.weight();

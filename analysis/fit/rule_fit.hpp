@@ -7,6 +7,7 @@
 #include "analysis/statistics/confidence.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,6 +72,13 @@ void add_doubt(RuleFit& fit, const std::string& doubt);
 /// Fits one rule. For `drop` every B is NaN, because its partial stresses do not add up to the
 /// whole. The line, and intervals over equal or random flows, are added by fit_flows (fit_pairs.hpp).
 RuleFit fit_rule(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
+
+/// Fits uniform:p for each of `shares`: of the estimators only B, with its interval over
+/// settings.over. If B(p) is a straight line, so are all sums, and the stresses are read at two
+/// shares alone. `tell` is called with the number of shares done so far.
+std::vector<RuleFit> fit_shares(const FitData& data, const std::vector<double>& shares,
+                                const FitSettings& settings,
+                                const std::function<void(double shares)>& tell = {});
 
 /// B of the fit minus B of `others`, points in the same windows, over the population of the fit.
 /// `windows` are sums of the fit's own points.

@@ -43,8 +43,8 @@ HeightRange inside_of(const std::vector<LayerSolid>& layers, double small_diamet
   double base = std::numeric_limits<double>::infinity(), height = 0;
   for (const auto& mean : mean_layers(layers)) {
     const double filled = mean.solid / median;
-    if (filled >= 0.5) base = std::min(base, mean.bottom);
-    height += filled * (mean.top - mean.bottom);
+    if (filled >= 0.5) base = std::min(base, mean.key.bottom);
+    height += filled * (mean.key.top - mean.key.bottom);
   }
   return {base + margin_inside * small_diameter, base + height - margin_inside * small_diameter};
 }
@@ -63,14 +63,16 @@ std::vector<LayerSolid> mean_layers(const std::vector<LayerSolid>& layers)
 {
   std::map<double, LayerSolid> means;  // by the layer's bottom, m
   for (const auto& layer : layers) {
-    if (!(layer.frames > 0)) continue;
-    auto& mean = means.try_emplace(layer.bottom, LayerSolid{layer.bottom, layer.top}).first->second;
-    mean.frames += layer.frames;
-    mean.solid += layer.frames * layer.solid;
+    const auto& key = layer.key;
+    if (!(key.frames > 0)) continue;
+    auto& mean = means.try_emplace(key.bottom, LayerSolid{{.bottom = key.bottom, .top = key.top}})
+                     .first->second;
+    mean.key.frames += key.frames;
+    mean.solid += key.frames * layer.solid;
   }
   return listed(means, [](const auto& entry) {
     auto mean = entry.second;
-    mean.solid /= mean.frames;
+    mean.solid /= mean.key.frames;
     return mean;
   });
 }
@@ -154,9 +156,16 @@ Header RowFilter::lines() const
   return {{"heights", heights_in_words(heights)}, {"min_solid", format_number(min_solid)}};
 }
 
+std::vector<LayerSolid> RowFilter::in_times(std::vector<LayerSolid> layers) const
+{
+  std::erase_if(layers, [this](const LayerSolid& layer) { return !holds_window(layer.key); });
+  return layers;
+}
+
 RowRange RowFilter::range(LengthUnits units, const std::vector<LayerSolid>& layers) const
 {
-  return {begin, end, parse_heights(heights, units, layers), min_solid * median_solid(layers)};
+  const auto bed = in_times(layers);
+  return {begin, end, parse_heights(heights, units, bed), min_solid * median_solid(bed)};
 }
 
 namespace {

@@ -29,18 +29,6 @@ struct HeightRange {
   bool holds(double bottom, double top) const;
 };
 
-/// A layer in one window, or averaged over several.
-struct LayerSolid {
-  double bottom = 0, top = 0;  // heights of the layer's edges, m
-  double frames = 0;           // number of frames, the weight of the layer
-  double solid = 0;            // area, volume or mass of the grains over the layer's volume
-};
-
-/// The median solid fraction of the layers that are not empty; 0 if all are empty.
-double median_solid(const std::vector<LayerSolid>& layers);
-/// Each layer with its mean solid fraction over the frames of all windows, from the lowest upward.
-std::vector<LayerSolid> mean_layers(const std::vector<LayerSolid>& layers);
-
 /// Default value of --heights in every tool that combines layers.
 inline constexpr const char* inside_the_bed = "inside";
 /// Distance of the layers `inside` from base and surface, in small diameters.
@@ -55,15 +43,6 @@ std::string heights_in_words(const std::string& text, bool annuli = false);
 /// Throws UsageError if the text is not a value of --heights.
 void check_heights(const std::string& text);
 
-/// The range of heights that a value of --heights selects in a bed of these layers. "inside" is the
-/// range from 4 d_S above the base to 4 d_S below the surface. The base is the bottom of the lowest
-/// layer with at least half the median solid fraction, averaged over windows. The surface is the
-/// top of a bed with the same grains and the median solid fraction everywhere. "inside" leaves out
-/// the base, because a large grain there touches only fixed grains, and the surface, because few
-/// grains collide there: their stress is not shared as in the bed.
-HeightRange parse_heights(const std::string& text, LengthUnits units,
-                          const std::vector<LayerSolid>& layers);
-
 /// First columns of every row of a table by layer and window. Tables of different tools are joined
 /// on them. In a map a "layer" is a cell: its edges along the second axis of the map are `bottom`
 /// and `top`, those along the first axis `left` and `right`.
@@ -74,6 +53,26 @@ struct LayerKey {
   double volume = 0;           // volume of the layer with its voids, m^2 or m^3
   double left = 0, right = 0;  // m; both 0 unless the table is a map
 };
+
+/// A layer or cell in one window, or averaged over several.
+struct LayerSolid {
+  LayerKey key;
+  double solid = 0;  // area, volume or mass of the grains over the layer's volume
+};
+
+/// The median solid fraction of the layers that are not empty; 0 if all are empty.
+double median_solid(const std::vector<LayerSolid>& layers);
+/// Each layer with its mean solid fraction over the frames of all windows, from the lowest upward.
+std::vector<LayerSolid> mean_layers(const std::vector<LayerSolid>& layers);
+
+/// The range of heights that a value of --heights selects in a bed of these layers. "inside" is the
+/// range from 4 d_S above the base to 4 d_S below the surface. The base is the bottom of the lowest
+/// layer with at least half the median solid fraction, averaged over windows. The surface is the
+/// top of a bed with the same grains and the median solid fraction everywhere. "inside" leaves out
+/// the base, because a large grain there touches only fixed grains, and the surface, because few
+/// grains collide there: their stress is not shared as in the bed.
+HeightRange parse_heights(const std::string& text, LengthUnits units,
+                          const std::vector<LayerSolid>& layers);
 
 struct KeyColumn {
   const char* name;
@@ -126,7 +125,12 @@ struct RowFilter {
   void check() const;
   /// Header lines "heights" and "min_solid".
   Header lines() const;
-  /// The rows to use of a bed that has these layers.
+  /// True for windows between `begin` and `end`.
+  bool holds_window(const LayerKey& key) const { return RowRange{begin, end}.holds_window(key); }
+  /// The layers in windows between `begin` and `end`. Base, surface and median solid fraction of a
+  /// bed are of these.
+  std::vector<LayerSolid> in_times(std::vector<LayerSolid> layers) const;
+  /// The rows to use of a bed that has these layers, of all windows.
   RowRange range(LengthUnits units, const std::vector<LayerSolid>& layers) const;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/sums_table.hpp"
 
+#include "analysis/frames/flow_of_table.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
@@ -163,8 +164,7 @@ std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& 
 {
   std::vector<LayerSolid> layers;
   for (const auto& row : rows)
-    if (!row.is_bed())
-      layers.push_back({row.bottom, row.top, row.frames, row.sums.content() / row.volume});
+    if (!row.is_bed()) layers.push_back({row, row.sums.content() / row.volume});
   const auto range = filter.range(units, layers);
   std::erase_if(rows, [&](const SumsRow<D>& row) {
     return !range.holds_window(row) || !range.holds_layer(row);
@@ -316,7 +316,8 @@ Table derived_table(const std::vector<Table>& tables, const DerivedOptions& opti
   add_settings(table.header, tables[0], options);
   with_dimension(dimension_of(tables[0]), [&](auto d) {
     auto rows = read_rows<d>(tables);
-    find_runs(tables);
+    require_one_flow(tables, find_runs(tables).run,
+                     pool == Pool::composition ? FlowsApart::by_settings : FlowsApart::by_any);
     const auto constants = read_run_constants(tables[0]);
     const LengthUnits units{constants.small_diameter, constants.large_diameter};
     if (!options.depth.empty()) settings.depth = parse_length(options.depth, "--depth", units);

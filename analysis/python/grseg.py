@@ -1529,15 +1529,14 @@ class Points:
         if adds_up:
             of_b = self._interval(b, excess, self._b_weight[total > 0].sum())
         if self.quantity == "contact" and len(self.tables[0].species) == 2:
-            zero, at_zero, change = self._zero()
+            zero, at_zero, change = self._share_with(0)
             weight, gain = self._b_weight[np.isfinite(at_zero)].sum(), np.nansum(self.frames * change)
             slope = float(gain / weight) if gain else math.nan
-            if adds_up and gain:
+            if gain:
                 of_zero = self._interval(zero, at_zero, -gain)
                 of_slope = self._interval(slope, change, weight)
             if adds_up:
-                none, everything = (self._b_at(p) for p in (0.0, 1.0))
-                share = (b - none) / (everything - none) if everything != none else math.nan
+                share = self._share_with(b)[0]
         if not adds_up:
             paper["paper_B"] = math.nan
         return Fit(_name_of(rule), len(self), b, share, zero, slope, **paper, B_interval=of_b[0], p_zero_interval=of_zero[0],
@@ -1579,10 +1578,13 @@ class Points:
         contents = self._contents(table)
         small, large = (contents[:, k] for k in self.pair)
         solid = contents.sum(axis=1) / table["V"]
-        median = np.median(solid[solid > 0]) if (solid > 0).any() else 0
+        slack = 1e-9 * (1 + abs(table["t0"]) + abs(table["t1"]))
+        in_times = (table["t0"] >= self._times[0] - slack) & (table["t1"] <= self._times[1] + slack)
+        filled = in_times & (solid > 0)
+        median = np.median(solid[filled]) if filled.any() else 0
         with np.errstate(invalid="ignore", divide="ignore"):
             ratio = small / large
-            use = self._in_range(table, solid, median) & (small > 0) & (large > 0) & (table["frames"] > 0)
+            use = in_times & self._in_heights(table, in_times, solid, median) & (small > 0) & (large > 0) & (table["frames"] > 0)
             use &= (ratio >= self._ratio_range[0]) & (ratio <= self._ratio_range[1])
         use &= solid >= self._min_solid * median
         d_small, d_large = (table.species[k].diameter for k in self.pair)
@@ -1612,17 +1614,15 @@ class Points:
         above[low] = np.where(adjacent & filled[high], high, -1)
         return below, above
 
-    def _in_range(self, table, solid, median):
-        """True for rows inside the ranges of times and heights [rows]."""
-        t0, t1, y0, y1 = (table[name] for name in ("t0", "t1", "y0", "y1"))
-        slack = 1e-9 * (1 + abs(t0) + abs(t1))
-        good = (t0 >= self._times[0] - slack) & (t1 <= self._times[1] + slack)
-        low, high = self._height_range(table, solid, median)
+    def _in_heights(self, table, in_times, solid, median):
+        """True for rows inside the range of heights [rows]."""
+        y0, y1 = table["y0"], table["y1"]
+        low, high = self._height_range(table, in_times, solid, median)
         slack = 1e-9 * (y1 - y0)
-        return good & (y0 >= low - slack) & (y1 <= high + slack)
+        return (y0 >= low - slack) & (y1 <= high + slack)
 
-    def _height_range(self, table, solid, median):
-        """The range of heights, m, as in parse_heights() of analysis/frames/layer_key.hpp."""
+    def _height_range(self, table, in_times, solid, median):
+        """The range of heights, m, as in parse_heights() of analysis/frames/layer_key.hpp, from the rows in_times [rows]."""
         sizes = table.number("small_diameter"), table.number("large_diameter")
         if self._heights == "all":
             return -math.inf, math.inf
@@ -1632,9 +1632,10 @@ class Points:
                 raise ValueError(f"heights = {self._heights!r}: write inside, all, or low:high, e.g. 4dS:56dS or 4dS:")
             return _metres(low, *sizes) if low else -math.inf, _metres(high, *sizes) if high else math.inf
         bottoms, layer = np.unique(table["y0"], return_inverse=True)
-        frames = np.bincount(layer, table["frames"])
+        weight = in_times * table["frames"]
+        frames = np.bincount(layer, weight)
         with np.errstate(invalid="ignore", divide="ignore"):
-            filled = np.nan_to_num(np.bincount(layer, table["frames"] * np.nan_to_num(solid)) / frames / median)
+            filled = np.nan_to_num(np.bincount(layer, weight * np.nan_to_num(solid)) / frames / median)
         if not (filled >= 0.5).any():
             return math.inf, -math.inf
         tops = np.zeros(len(bottoms))
@@ -1669,9 +1670,9 @@ class Points:
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.where(total > 0, large / total - self.phi_large, math.nan)
 
-    def _zero(self):
-        """p* by Newton's method, which needs one step if B is linear in the share p; and, at p*, psi_L - phi_L of each
-        point and its derivative with respect to p."""
+    def _share_with(self, b):
+        """The share p at which B(p) = b by Newton's method, which needs one step if B is linear in p; and, at p,
+        psi_L - phi_L of each point and its derivative with respect to p."""
         none, everything = self._resolved("uniform:0"), self._resolved("uniform:1")
         change = [all_to - none_to for none_to, all_to in zip(none, everything)]
         share = 0.5
@@ -1682,7 +1683,7 @@ class Points:
             gain = np.nansum(self.frames * by_share)
             if not gain:
                 return math.nan, excess, by_share
-            step = np.nansum(self.frames * excess) / gain
+            step = (np.nansum(self.frames * excess) - b * self._b_weight[np.isfinite(excess)].sum()) / gain
             share -= step
             if abs(step) < 1e-14:
                 break

@@ -326,7 +326,7 @@ void read_run(const RunTables& tables, const std::vector<PartitionRule>& rules,
   if (segregation.has_column("shear_rate")) rows.shear_rates = shear_rates_of(segregation);
   const auto list = motions_of(segregation, data.has_kinetic);
   const auto layers = listed(list, [](const LayerMotion& motion) {
-    return LayerSolid{motion.key.bottom, motion.key.top, motion.key.frames, motion.solid()};
+    return LayerSolid{motion.key, motion.solid()};
   });
   const auto range = filter.range(units, layers);
   for (const auto& motion : list) rows.motions.emplace(place_of(motion.key), motion);

@@ -79,7 +79,7 @@ std::vector<PredictedWindow> windows_of(const Table& table, const RowFilter& fil
     const double part = non_negative_cell(table, row, large);
     const double content = part + non_negative_cell(table, row, small);
     all.push_back({key, content, content > 0 ? part / content : 0});
-    solids.push_back({key.bottom, key.top, key.frames, content / key.volume});
+    solids.push_back({key, content / key.volume});
   }
   const LengthUnits units{table.header_positive("small_diameter"),
                           table.header_positive("large_diameter")};
@@ -169,7 +169,7 @@ double solid_of(const PredictedWindow& window)
 {
   std::vector<LayerSolid> layers;
   for (const auto& [key, content, phi, predicted] : window.layers)
-    layers.push_back({key.bottom, key.top, key.frames, content / key.volume});
+    layers.push_back({key, content / key.volume});
   return median_solid(layers);
 }
 

@@ -210,9 +210,11 @@ Estimate quotient(const Regression& a, const Regression& b, double factor)
 std::vector<RatePoint> filtered(std::vector<RatePoint> points, const RowFilter& filter,
                                 LengthUnits units)
 {
-  const auto range = filter.range(units, listed(points, [](const RatePoint& point) {
-                                    return LayerSolid{point.bottom, point.top, 1, point.solid};
-                                  }));
+  const RowFilter of_layers{.heights = filter.heights, .min_solid = filter.min_solid};
+  const auto range = of_layers.range(
+      units, listed(points, [](const RatePoint& point) {
+        return LayerSolid{{.bottom = point.bottom, .top = point.top, .frames = 1}, point.solid};
+      }));
   std::erase_if(points, [&](const RatePoint& point) {
     return !range.heights.holds(point.bottom, point.top) || !(point.solid >= range.least_solid);
   });

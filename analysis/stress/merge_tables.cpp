@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/stress/merge_tables.hpp"
 
+#include "analysis/frames/flow_of_table.hpp"
 #include "analysis/frames/layer_key.hpp"
 #include "analysis/frames/runs_of_tables.hpp"
 #include "analysis/frames/sums.hpp"
@@ -168,7 +169,9 @@ Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& 
   });
 
   const auto parts = listed(tables, parts_of);
-  const auto doubt = find_runs(tables).doubt(tables);
+  const auto runs = find_runs(tables);
+  require_one_flow(tables, runs.run, FlowsApart::by_any);
+  const auto doubt = runs.doubt(tables);
   std::map<Times, std::vector<const Part*>> windows;
   Times whole(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min());
   for (const auto& of_table : parts)

@@ -16,8 +16,9 @@ namespace grseg {
 ///
 /// The header contains the histories and inputs of all tables, and `command` as the last line of
 /// the history. All other header lines must agree in all tables. Throws FormatError, naming two
-/// tables that differ, and UsageError if two tables contain the same time of the same run. The
-/// result does not depend on the order of `tables`, except for file names in `command`.
+/// tables that differ, and UsageError if two tables contain the same time of the same run, or are of
+/// different flows (flow_of_table.hpp). The result does not depend on the order of `tables`, except
+/// for file names in `command`.
 Table merge_tables(std::vector<Table> tables, bool all_windows, const ToolInfo& info,
                    const std::string& command);
 

@@ -177,15 +177,13 @@ ContactSumsReader::ContactSumsReader(const Table& table, const std::vector<Parti
   for (const auto& name : content_columns(species_, dimension))
     contents_.push_back(find_column(table, name, remedy));
   add_columns(InTables::all, rules, remedy);
+  at_centres_ = is_at_centres();
+  if (at_centres_)
+    add_columns(InTables::at_centres, rules,
+                "make the table again with grseg-stress --assign grain");
   bool has_power = false;
   for (const auto& rule : rules) {
     const auto& definition = rule.definition();
-    const bool same_for_all = definition.share != nullptr && !definition.sum;
-    if (same_for_all && !at_centres_ && is_at_centres()) {
-      add_columns(InTables::at_centres, rules,
-                  "make the table again with grseg-stress --assign grain");
-      at_centres_ = true;
-    }
     if (!definition.sum || tables_with(*definition.sum) != InTables::power) continue;
     const auto how = fmt::format("make the table with grseg-stress --partition {}", rule.name());
     if (!has_power) add_columns(InTables::power, rules, how);

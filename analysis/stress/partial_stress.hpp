@@ -70,9 +70,10 @@ std::vector<Cell> stress_fields(const ContactSums<D>& sums, const SpeciesList& s
                                 const MapStress& how);
 
 /// Reads the rows of a table of grseg-stress as ContactSums of its species; z components of a table
-/// in two dimensions are 0. Components whose columns the header line "not kept" names are NaN.
-/// Throws FormatError, with the column and a remedy, if a column that `rules` need is missing; also
-/// if a number is not finite, or an area or volume of grains is negative.
+/// in two dimensions are 0. Components whose columns the header line "not kept" names are NaN. All
+/// sums that the table has are read, whatever the `rules`, except those by power:Q. Throws
+/// FormatError, with the column and a remedy, if a column that `rules` need is missing; also if a
+/// number is not finite, or an area or volume of grains is negative.
 class ContactSumsReader {
  public:
   ContactSumsReader(const Table& table, const std::vector<PartitionRule>& rules);

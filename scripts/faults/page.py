@@ -15,7 +15,7 @@ FAULTS = [
     ("B: windows without their frames", PAGE + "partition.js", "excess += frames[k] * (", "excess += ("),
     ("neutral contacts: the small grain's share", PAGE + "partition.js", "(p - r / (1 + r)) * (1 + r)",
      "(p - 1 / (1 + r)) * (1 + r)"),
-    ("share of a rule: over B at p = 1 alone", PAGE + "partition.js", "/ (at(1) - at(0));", "/ at(1);"),
+    ("share of a rule: over B at p = 1 alone", PAGE + "partition.js", "/ (at - before);", "/ at;"),
     ("band: the other end of the step", PAGE + "partition.js", "(t * (c - a)) / 2", "(t * (a - c)) / 2"),
     # Frames and contacts.
     ("contacts: numbers of grains are not added up", PAGE + "frames.js", "grain += i[from + k];", "grain = i[from + k];"),

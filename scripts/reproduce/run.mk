@@ -53,8 +53,12 @@ sums := $(filter-out $(extracts),$(TABLES))
 # command_of TABLE: the command that makes the table, as the table's history records it.
 command_of = $(strip grseg-$(firstword $(subst -, ,$(1))) $(or $(trajectory_$(1)),run.h5) --window $(WINDOW) $(options_of) --quiet)
 
-# Tables that were made by another command than now are made again.
-outdated := $(shell $(campaign) outdated $(call quote,$(AGAIN)) $(extracts) $(PAGE) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
+# The page computes B from stress.tsv, whose history has no restarts.
+PAGE_BEGIN ?= 0
+command_of_page := grseg-explore run.h5 stress.tsv --window $(WINDOW) --heights $(SUMMARY_HEIGHTS) --begin $(PAGE_BEGIN) --quiet --overwrite -o page.html
+
+# Tables and pages that were made by another command than now are made again.
+outdated := $(shell $(campaign) outdated $(call quote,$(AGAIN)) $(extracts) $(if $(PAGE),$(call quote,$(PAGE): $(command_of_page))) $(foreach table,$(sums:.tsv=),$(call quote,$(table).tsv: $(call command_of,$(table)))))
 $(if $(filter-out 0,$(.SHELLSTATUS)),$(error $(notdir $(CURDIR)): which tables are outdated is unknown; see the message above))
 $(if $(filter gone,$(outdated)),$(error $(notdir $(CURDIR)): $(filter-out gone,$(outdated)): missing, or made by another \
   command than now, and the trajectory was deleted; AGAIN=yes simulates the run again))
@@ -62,17 +66,16 @@ $(outdated): FORCE
 
 table = $(run) $(campaign) table $@
 $(filter-out stress-random.tsv,$(sums)): run.h5
-	$(table) $(bin)/$(call command_of,$(basename $@))
+	$(table) $(bin)/$(call quote_each,$(call command_of,$(basename $@)))
 $(extracts): run.h5
 	$(table) $(campaign) extract $(basename $@) run.h5
 stress-random.tsv: run.h5
 	$(run) $(campaign) relabel run.h5 $(trajectory_stress-random)
-	$(table) $(bin)/$(call command_of,$(basename $@))
+	$(table) $(bin)/$(call quote_each,$(call command_of,$(basename $@)))
 	rm $(trajectory_stress-random)
 
-# The page computes B from stress.tsv, whose history has no restarts.
 page.html: run.h5 stress.tsv
-	$(run) $(bin)/grseg-explore run.h5 stress.tsv --quiet --overwrite -o $@
+	$(run) $(bin)/$(call quote_each,$(command_of_page))
 
 # Wall times. No checksum includes them, so that checksums are the same for an interrupted and an uninterrupted run.
 cost.tsv: run.h5 $(TABLES)

@@ -333,6 +333,7 @@ def check_all_fits(sample):
     check_fits(["second.tsv"], ["--heights", "4dS:16dS", "--ratio-range", "0.2:5", "--min-solid", "0.8", "--begin", "12"],
                heights="4dS:16dS", ratio_range=(0.2, 5), min_solid=0.8, begin=12)
     check_fits(["second.tsv"], ["--heights", "all"], heights="all")
+    check_fits(["first.tsv", "second.tsv"], ["--begin", "5", "--end", "15"], begin=5, end=15)
     run_tool("stress", sample, *stress, "--assign", "grain", "-o", "grain.tsv")
     check_fits(["grain.tsv"])
     run_tool("stress", sample, *stress, "--classes", "3", "-o", "classes.tsv")

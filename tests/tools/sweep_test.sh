@@ -12,7 +12,7 @@ sweep() {
   local out=$1
   shift
   PATH="/usr/bin:$PATH" make -s -C "$source/scripts" sweep HERE="$folder" BIN="$build/bin" SCENE=chute.ini KEYS="$keys" OUT="$out" \
-    WINDOW=0.25 CHECKPOINT_EVERY=0.1 -j2 "$@"
+    WINDOW=0.25 HEIGHTS=4dS:12dS CHECKPOINT_EVERY=0.1 -j2 "$@"
 }
 fail() {
   echo "sweep_test: $1" >&2
@@ -47,10 +47,15 @@ for name in index.html b-of-slope.png b-of-slope.pdf; do [ -s "killed/$name" ] |
 [ "$(find killed -name page.html | wc -l)" = "$runs" ] || fail "a run has no page"
 [ "$(grep -c '^ ' killed/sweep.txt)" = "$(cut -f 2 killed/runs.tsv | tail -n +2 | sort -u | wc -l | awk '{ print $1 }')" ] || fail "sweep.txt: rows"
 
-grep -q '^# heights: inside' killed/sweep.tsv && grep -q '^heights inside; begin 0 s' killed/sweep.txt || fail "the settings are not said"
+grep -q '^# heights: 4dS:12dS' killed/sweep.tsv && grep -q '^heights 4dS:12dS; begin 0 s' killed/sweep.txt || fail "the settings are not said"
 grep -Eq ' runs +windows +points .* verdict$' killed/sweep.txt || fail "sweep.txt does not say on how many points B rests"
 ! grep -E '^ .* -$' killed/sweep.txt || fail "a flow without a verdict"
 grep -q '^# windows: ' killed/sweep.tsv && grep -q '"verdict": "[a-z]' killed/index.html || fail "windows or verdict are missing"
+# Summaries and pages are of the heights and windows of the fits.
+for run in killed/*/; do
+  grep -q '^# heights: 4dS:12dS' "$run/segregation-summary.tsv" && grep -q '^# window: 0.25' "$run/segregation-summary.tsv" || fail "$run: another summary"
+  grep -q -- '--window 0.25 --heights 4dS:12dS --begin 0 ' "$run/page.html" || fail "$run: another page"
+done
 grep -q '^doubt of . of . flows: few runs show little' killed/sweep.txt || fail "two seeds without a doubt"
 ! sweep killed BEGIN=20 >late.log 2>&1 || fail "times after the end have a B"
 grep -q 'there is no B for any flow' late.log && ! grep -q Traceback late.log || fail "$(cat late.log)"
@@ -59,6 +64,9 @@ sweep killed BEGIN=4 >log 2>&1 || fail "$(cat log)"
 sweep killed PARTITION=uniform:0.6 >again.log 2>&1
 ! grep -q 'is finished\|to simulate' again.log || fail "another rule simulated"
 grep -q 'B uniform:0.6' killed/sweep.txt || fail "another rule is not in the table"
+# Without the trajectory other heights reach the fits, and no summary of the old heights stands beside them.
+sweep killed HEIGHTS=all >heights.log 2>&1 || fail "$(cat heights.log)"
+grep -q 'segregation-summary.tsv is of the heights 4dS:12dS' heights.log && ! grep -q 'D_S' killed/sweep.tsv || fail "a summary of other heights is shown"
 sed -i 's/duration = 12/duration = 13/' chute.ini
 ! sweep killed >other.log 2>&1 || fail "a finished sweep took another scene"
 grep -q 'this run is finished, but the scene .*chute.ini has changed; choose another OUT, or simulate the run again with AGAIN=yes' other.log || fail "$(cat other.log)"

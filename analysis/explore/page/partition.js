@@ -137,8 +137,14 @@ export function shareOf(fit, rule) {
   if (rule.kind === "drop") return NaN;
   if (rule.kind === "power" && !hasPowers(fit)) return powerShare(fit.size_ratio, rule.value);
   if (!fit.two) return NaN;
-  const at = (p) => fitOf(fit, {kind: "uniform", value: p}).B;
-  return (fitOf(fit, rule).B - at(0)) / (at(1) - at(0));
+  const wanted = fitOf(fit, rule).B, beyond = (p) => fitOf(fit, {kind: "uniform", value: p}).B - wanted;
+  // One secant, unless the tables count contacts at the grains' centres (--assign grain): B(p) is no straight line then.
+  let p = 1, at = beyond(p), last = 0, before = beyond(last);
+  for (let step = 0; step < 8 && !(Math.abs(at) < 1e-12); ++step) {
+    const next = p - (at * (p - last)) / (at - before);
+    [last, before, p, at] = [p, at, next, beyond(next)];
+  }
+  return p;
 }
 
 /** Share p* at which B is 0, with its interval, from grseg-fit: [p*, low, high]; NaN if there are more than two species. */

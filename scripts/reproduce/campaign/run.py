@@ -113,8 +113,22 @@ def table(options):
         log.write(f"{options.file} made in {time.time() - begin:.3f} s, {processor}\n")
 
 
+def is_made_by(name, command):
+    """True if the last line of a table's history is the command. A page has it among its data."""
+    with open(name) as lines:
+        if name.endswith(".html"):
+            return command in lines.read()
+        head = itertools.takewhile(lambda line: line.startswith("#"), lines)
+        return [line for line in head if line.startswith("# history: ")][-1:] == [f"# history: {command}\n"]
+
+
+def of_fits(name):
+    return name.endswith(("page.html", "-summary.tsv"))
+
+
 def outdated(options):
-    """Prints the names of outdated tables of the run in this folder: tables whose last line of history is not COMMAND.
+    """Prints the names of outdated tables and pages of the run in this folder: those that COMMAND has not made. Pages and
+    summaries, which have options of the fits, are not outdated once the trajectory is deleted, except with AGAIN.
 
     If the run is finished and its trajectory deleted, missing or outdated tables require another simulation. Then it prints
     "gone" and these tables or, with AGAIN, all tables, because the present program may give another run."""
@@ -124,11 +138,8 @@ def outdated(options):
         names.append(name)
         if not os.path.exists(name):
             missing.append(name)
-        elif command:
-            with open(name) as lines:
-                head = list(itertools.takewhile(lambda line: line.startswith("#"), lines))
-            if [line for line in head if line.startswith("# history: ")][-1:] != [f"# history: {command}\n"]:
-                old.append(name)
+        elif command and (options.again or not of_fits(name) or os.path.exists("run.h5")) and not is_made_by(name, command):
+            old.append(name)
     if (old or missing) and os.path.exists("checksums") and not os.path.exists("run.h5") and not is_newer("scene.ini", "checksums"):
         print(*(names if options.again else ["gone", *old, *missing]))
     else:

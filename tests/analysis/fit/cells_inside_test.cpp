@@ -11,9 +11,9 @@ namespace {
 constexpr double side = 0.5;
 
 /// A map of 12 by 10 full cells, in two windows.
-std::vector<CellSolid> full_map()
+std::vector<LayerSolid> full_map()
 {
-  std::vector<CellSolid> rows;
+  std::vector<LayerSolid> rows;
   for (int window = 0; window < 2; ++window)
     for (int j = 0; j < 10; ++j)
       for (int i = 0; i < 12; ++i)
@@ -29,7 +29,7 @@ std::vector<CellSolid> full_map()
   return rows;
 }
 
-long inside(const std::vector<CellSolid>& rows, const OpenEnds& ends, double margin)
+long inside(const std::vector<LayerSolid>& rows, const OpenEnds& ends, double margin)
 {
   const auto all = cells_inside(rows, ends, margin);
   return std::count(all.begin(), all.end(), true) / 2;
@@ -68,7 +68,7 @@ TEST(AnnuliInside, ReachFromTheInnermostThatIsHalfFullToAMarginWithinTheWall)
   for (int window = 0; window < 2; ++window)
     for (int k = 0; k < 11; ++k) {
       const double solid = k == 0 || k == 10 ? 0 : k == 1 ? 0.1 : k == 9 ? 0.2 : 0.4;
-      annuli.push_back({double(k), k + 1.0, 5, solid});
+      annuli.push_back({{.bottom = double(k), .top = k + 1.0, .frames = 5}, solid});
     }
   const auto range = annuli_inside(annuli, 2);
   EXPECT_DOUBLE_EQ(range.lowest, 2);

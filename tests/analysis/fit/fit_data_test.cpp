@@ -186,6 +186,39 @@ TEST(FitData, LayersTakePartThatLieWhollyBetweenTheHeights)
   EXPECT_THROW(used("4dS"), UsageError);
 }
 
+/// A bed of ten layers that loses its upper five before the time 1 s, and half of the grains of the
+/// others.
+Table emptied_bed()
+{
+  std::vector<TableRow> rows;
+  for (int window = 0; window < 4; ++window)
+    for (int k = 0; k < (window < 2 ? 10 : 5); ++k) {
+      const double solid = window < 2 ? 0.8 : 0.4;
+      const auto sums = neutral_sums(0.3 + 0.05 * k, 2, solid);
+      rows.push_back({0.5 * window, 0.5 * window + 0.5, 9, synthetic::moved(sums, window), 0.01 * k,
+                      0.01 * (k + 1)});
+    }
+  return stress_table(rows);
+}
+
+// After 1 s the bed is 0.05 m high and uniform: `inside` is from 0.02 to 0.03 m.
+TEST(FitData, SurfaceAndMedianAreOfTheTimesThatAreFitted)
+{
+  const auto all = emptied_bed();
+  auto late = all;
+  std::erase_if(late.rows, [](const std::vector<double>& row) { return row[0] < 1; });
+  FitFilters filters;
+  filters.heights = "inside";
+  filters.min_solid = 0.9;
+  const auto of_late = read({late}, filters);
+  ASSERT_EQ(of_late.samples.size(), 2u);
+  filters.begin = 1;
+  const auto of_all = read({all}, filters);
+  ASSERT_EQ(of_all.samples.size(), 2u);
+  EXPECT_EQ(of_all.samples[0].key.bottom, of_late.samples[0].key.bottom);
+  EXPECT_DOUBLE_EQ(of_all.samples[0].key.bottom, 0.02);
+}
+
 TEST(FitData, WhereNothingIsLeftTheSentenceNamesTheFilter)
 {
   const auto table = stress_table(neutral_rows(0));

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -29,8 +30,40 @@ TEST(Flows, TablesThatDifferInTheirSeedAloneAreRunsOfOne)
   EXPECT_EQ(flows[0].tables, (Numbers{1, 2}));
   EXPECT_EQ(flows[1].tables, (Numbers{0, 3}));
   EXPECT_EQ(flows[0].name, "Phi_L = 0.30");
-  EXPECT_NEAR(flows[1].phi_large(), 0.45, 1e-12);
+  EXPECT_NEAR(flows[1].phi_large(), 0.451, 1e-12);  // of both tables
   EXPECT_EQ(read[3].flow, 1u);
+}
+
+// 0.315 is as near to 0.3 as to 0.33.
+TEST(Flows, AreTheSameInAnyOrderOfTheTables)
+{
+  std::vector<double> compositions{0.3, 0.315, 0.33};
+  do {
+    const auto tables = listed(compositions, [](double phi) { return run_of(phi); });
+    auto read = read_all(tables);
+    const auto flows = find_flows(read, "auto");
+    ASSERT_EQ(flows.size(), 2u);
+    EXPECT_NEAR(flows[0].phi_large(), 0.3075, 1e-12);
+  } while (std::next_permutation(compositions.begin(), compositions.end()));
+}
+
+TEST(Flows, IntervalsAreTheSameInAnyOrderOfTheTables)
+{
+  std::vector<Table> tables;
+  for (const int windows : {20, 30, 50})
+    tables.push_back(synthetic::stress_table(synthetic::neutral_rows(0.002 * windows, 2, windows)));
+  const auto fit = [&](Population over) {
+    return synthetic::fit(synthetic::read(tables), "half", {.over = over});
+  };
+  for (const auto over : {Population::windows, Population::runs}) {
+    const auto forward = fit(over);
+    std::swap(tables[0], tables[2]);
+    std::swap(tables[1], tables[2]);
+    const auto backward = fit(over);
+    EXPECT_NEAR(backward.low.B, forward.low.B, 1e-12);
+    EXPECT_NEAR(backward.high.B, forward.high.B, 1e-12);
+    EXPECT_NEAR(backward.line.p_zero.error.error, forward.line.p_zero.error.error, 1e-12);
+  }
 }
 
 TEST(Flows, AreToldApartByAllThatTablesRecordOfTheFlow)

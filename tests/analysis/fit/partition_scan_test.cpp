@@ -30,9 +30,12 @@ TEST(PartitionScan, EveryShareIsTheSingleFitOfItsRule)
   ASSERT_EQ(scan.fits.size(), 6u);
   for (const auto& one : scan.fits) {
     const auto single = fit_rule(data, uniform(one.rule.value), {});
-    EXPECT_EQ(one.value.B, single.value.B);
-    EXPECT_EQ(one.low.B, single.low.B);
-    EXPECT_EQ(one.high.B, single.high.B);
+    EXPECT_NEAR(one.value.B, single.value.B, 1e-14);
+    EXPECT_NEAR(one.low.B, single.low.B, 1e-13);
+    EXPECT_NEAR(one.high.B, single.high.B, 1e-13);
+    EXPECT_NEAR(one.neutral, single.neutral, 1e-14);
+    EXPECT_EQ(one.doubt, single.doubt);
+    EXPECT_EQ(one.points, single.points);
   }
 }
 
@@ -85,7 +88,7 @@ TEST(PartitionScan, NeutralContactsHaveNoSegregationAtTheShareBySize)
 
 // If contacts count in the layer of the grain's centre (--assign grain), the contacts that small
 // grains of a layer lose are not the ones that its large grains gain.
-TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
+FitData at_centres()
 {
   auto data = neutral_data(0.1);
   for (auto& sums : data.rows) {
@@ -94,6 +97,38 @@ TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
     sums.of(PairSum::at_larger, 0) = 1.1 * sums.of(PairSum::whole, 0);
     sums.of(PairSum::at_smaller, 0) = 0.8 * sums.of(PairSum::whole, 0);
   }
+  return data;
+}
+
+// B(p) is no straight line then: between B(0) and B(1) the line is off by 0.01 and more.
+TEST(PartitionScan, TheShareOfARuleGivesItsBOfPartsAtTheGrainsToo)
+{
+  const auto data = at_centres();
+  EXPECT_NEAR(fit_rule(data, parse_rule("half"), {}).share, 0.5, 1e-12);
+  const auto size = fit_rule(data, parse_rule("size"), {});
+  EXPECT_NEAR(fit_rule(data, uniform(size.share), {}).value.B, size.value.B, 1e-12);
+  const auto b_at = [&](double share) { return fit_rule(data, uniform(share), {}).value.B; };
+  EXPECT_GT(std::abs(b_at(0.5) - (b_at(0) + b_at(1)) / 2), 0.01);
+}
+
+TEST(PartitionScan, AScanOfPartsAtTheGrainsIsTheFitOfEachRule)
+{
+  const auto data = at_centres();
+  for (const auto& one : scan_partition(data, parse_scan("0.4:0.8:0.2"), {}).fits)
+    EXPECT_NEAR(one.value.B, fit_rule(data, uniform(one.rule.value), {}).value.B, 1e-14);
+}
+
+TEST(PartitionScan, TheZeroIsTheSameWhicheverRuleIsFitted)
+{
+  const auto data = neutral_data(0.1);
+  const auto size = synthetic::fit(data, "size"), drop = synthetic::fit(data, "drop");
+  EXPECT_EQ(size.line.p_zero.value, drop.line.p_zero.value);
+  EXPECT_EQ(size.line.dB_dp.error.error, drop.line.dB_dp.error.error);
+}
+
+TEST(PartitionScan, TheSlopeAtTheZeroIsThatOfBOfPartsAtTheGrainsToo)
+{
+  const auto data = at_centres();
   const auto b_at = [&](double share) { return fit_rule(data, uniform(share), {}).value.B; };
   const auto line = line_over_share(data, {}, Population::windows);
   const double zero = line.p_zero.value;

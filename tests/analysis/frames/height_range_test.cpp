@@ -33,18 +33,22 @@ TEST(HeightRange, RefusesASingleHeightAndWhatIsNotALength)
     EXPECT_THROW(check_heights(wrong), UsageError) << wrong;
 }
 
+LayerSolid filled_layer(double bottom, double frames, double solid)
+{
+  return {{.bottom = bottom, .top = bottom + 0.02, .frames = frames}, solid};
+}
+
 // A bed that starts at -0.02 m: four layers of solid fraction 0.8, one of 0.6 on average, spray of
 // 0.1. Its surface is at -0.02 + 0.02 (4 + 0.75 + 0.125) = 0.0775 m; 4 d_S are 0.02 m.
 TEST(HeightRange, InsideLeavesFourSmallDiametersAtTheBaseAndUnderTheSurface)
 {
   std::vector<LayerSolid> layers;
   for (int k = -1; k < 3; ++k)
-    for (int window = 0; window < 3; ++window)
-      layers.push_back({0.02 * k, 0.02 * (k + 1), 10, 0.8});
-  layers.push_back({0.06, 0.08, 30, 0.7});
-  layers.push_back({0.06, 0.08, 10, 0.3});
-  layers.push_back({0.08, 0.10, 10, 0.1});
-  layers.push_back({0.10, 0.12, 0, 0});
+    for (int window = 0; window < 3; ++window) layers.push_back(filled_layer(0.02 * k, 10, 0.8));
+  layers.push_back(filled_layer(0.06, 30, 0.7));
+  layers.push_back(filled_layer(0.06, 10, 0.3));
+  layers.push_back(filled_layer(0.08, 10, 0.1));
+  layers.push_back(filled_layer(0.10, 0, 0));
   const auto range = parse_heights("inside", units, layers);
   EXPECT_NEAR(range.lowest, 0, 1e-12);
   EXPECT_NEAR(range.highest, 0.0575, 1e-12);
@@ -55,7 +59,7 @@ TEST(HeightRange, InsideLeavesFourSmallDiametersAtTheBaseAndUnderTheSurface)
 TEST(HeightRange, InsideBeginsAboveTheBaseAndNotAtTheBottomOfTheCell)
 {
   std::vector<LayerSolid> layers;
-  for (int k = 0; k < 12; ++k) layers.push_back({0.02 * k, 0.02 * (k + 1), 10, k < 2 ? 0.08 : 0.8});
+  for (int k = 0; k < 12; ++k) layers.push_back(filled_layer(0.02 * k, 10, k < 2 ? 0.08 : 0.8));
   const auto range = parse_heights("inside", units, layers);
   EXPECT_NEAR(range.lowest, 0.04 + 0.02, 1e-12);
 }
@@ -75,7 +79,7 @@ TEST(MedianSolid, LeavesOutWhatIsEmptyOrNotANumber)
 {
   const auto median = [](const std::vector<double>& solid) {
     std::vector<LayerSolid> layers;
-    for (const double one : solid) layers.push_back({.solid = one});
+    for (const double one : solid) layers.push_back({{}, one});
     return median_solid(layers);
   };
   EXPECT_EQ(median({0, 3, 0, 1, 2, 0, 0, std::nan("")}), 2);

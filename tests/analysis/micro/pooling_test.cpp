@@ -71,5 +71,22 @@ TEST(Pooling, RowsAreChosenByWindowAndHeightButTheBedByWindowAlone)
   EXPECT_EQ(filtered(rows, {.begin = 1, .heights = ":6dS"}, {1, 2}).size(), 1u);
 }
 
+// A bed of twelve layers loses its upper half; 4 d_S are two layers.
+TEST(Pooling, InsideIsOfTheTimesThatArePooled)
+{
+  std::vector<SumsRow<2>> rows;
+  for (int window = 0; window < 2; ++window)
+    for (int k = 0; k < (window == 0 ? 12 : 6); ++k) {
+      auto& row = rows.emplace_back(layer(0.5));
+      row.begin = window;
+      row.end = window + 1;
+      row.bottom = 2 * k;
+      row.top = 2 * (k + 1);
+    }
+  const auto late = filtered(rows, {.begin = 1, .heights = "inside"}, {1, 2});
+  ASSERT_EQ(late.size(), 2u);
+  EXPECT_EQ(late[0].bottom, 4);
+}
+
 }  // namespace
 }  // namespace grseg

@@ -38,7 +38,9 @@ Table table(const std::string& input, const std::vector<TableRow>& rows)
                  {"step", "0.001"},
                  {"layer", "0.02"},
                  {"window", "0.1"},
-                 {"assign", "contact-point"}};
+                 {"assign", "contact-point"},
+                 {"small_diameter", "0.005"},
+                 {"large_diameter", "0.01"}};
   return made;
 }
 
@@ -92,6 +94,31 @@ TEST(MergeTables, ALayerThatOneRunDoesNotReachIsEmptyThere)
   EXPECT_EQ(cell(t, 1, "frames"), 40);
   EXPECT_DOUBLE_EQ(cell(t, 1, "A_LL_yy"), 3 * 1.1);
   EXPECT_DOUBLE_EQ(cell(t, 1, "area_S"), 0.75 * 0.8);
+}
+
+// Of runs that differ in composition, or in a key of their scenes such as the start of the bed.
+TEST(MergeTables, TablesOfDifferentFlowsAreRefused)
+{
+  const auto with_scene = [](const std::string& input, const std::string& scene) {
+    auto made = table(input, {row(0, 0, 10, input == "a" ? 1 : 2)});
+    made.header.insert(made.header.begin() + 3, {"scene", scene});
+    return made;
+  };
+  const auto mixed = with_scene("a", "initial = mixed; seed = 1; slope-rate = 2");
+  EXPECT_EQ(
+      merged({mixed, with_scene("b", "initial = mixed; seed = 2; slope-rate = 2")}).rows.size(),
+      1u);
+  EXPECT_EQ(
+      sentence<UsageError>({mixed, with_scene("b", "initial = large-above; seed = 2")}),
+      "a.tsv and b.tsv are of different flows (initial = mixed and large-above), and a mean over "
+      "both is of neither; give tables of one flow, which differ in their seed alone");
+  EXPECT_TRUE(
+      holds(sentence<UsageError>({mixed, with_scene("b", "initial = mixed; slope-rate = 4")}),
+            "(slope-rate = 2 and 4)"));
+  auto rich = row(0, 0, 10, 1);
+  rich.sums.content = {0.6, 1.0};
+  EXPECT_TRUE(holds(sentence<UsageError>({table("a", {row(0, 0, 10, 2)}), table("b", {rich})}),
+                    "(Phi_L = 0.50 and Phi_L = 0.62)"));
 }
 
 TEST(MergeTables, WindowsStayApartUnlessAllAreAsked)
@@ -190,7 +217,9 @@ TEST(MergeTables, HistoriesAndDigestsOfAllTablesAreKept)
       {"step", "0.001"},
       {"layer", "0.02"},
       {"window", "0.1"},
-      {"assign", "contact-point"}};
+      {"assign", "contact-point"},
+      {"small_diameter", "0.005"},
+      {"large_diameter", "0.01"}};
   EXPECT_EQ(t.header, header);
 }
 

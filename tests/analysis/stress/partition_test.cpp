@@ -141,7 +141,7 @@ TEST(Partition, SharesOfPartsAtTheGrainsCentresAreTakenWhereEachGrainIs)
   EXPECT_LT((stress.total - stress.large() - stress.small()).norm(), 1e-14);
 }
 
-TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
+TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsRefusedForEveryRule)
 {
   auto table = stress_table({{0, 1, 1, one_mixed_contact()}});
   for (const char* name : {"ML", "MS"})
@@ -149,16 +149,15 @@ TEST(Partition, ATableOfGrainsWithoutTheirHalvesIsReadForSizeAndRefusedForHalf)
       table.columns.push_back(std::string(name) + component);
       table.rows[0].push_back(1);
     }
-  EXPECT_FALSE(ContactSumsReader(table, {parse_rule("size")}).read(0).at_centres);
-  try {
-    const ContactSumsReader reader(table, {parse_rule("half")});
-    ADD_FAILURE() << "the table was read";
-  } catch (const FormatError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "sums.tsv: a table of grseg-stress has no column 'HSS_xx'; make the table again with grseg-stress "
-        "--assign grain");
-  }
+  for (const char* rule : {"size", "half"}) try {
+      const ContactSumsReader reader(table, {parse_rule(rule)});
+      ADD_FAILURE() << "the table was read for " << rule;
+    } catch (const FormatError& error) {
+      EXPECT_STREQ(
+          error.what(),
+          "sums.tsv: a table of grseg-stress has no column 'HSS_xx'; make the table again with grseg-stress "
+          "--assign grain");
+    }
 }
 
 TEST(Partition, InTheVolumeOfTheGrainsStressIsLargerByOneOverTheSolidFraction)
@@ -317,6 +316,24 @@ std::string reader_sentence(const Table& table, const std::vector<PartitionRule>
     return error.what();
   }
   return "";
+}
+
+// A fit by size also gives p*, for which the stress by uniform:p is needed.
+TEST(ContactSumsReader, WhatIsReadDoesNotDependOnTheRules)
+{
+  auto table = stress_table({{0, 1, 1, one_mixed_contact()}});
+  double number = 0;
+  for (const char* name : {"HSS", "HLL", "ML", "MS"})
+    for (const char* component : {"_xx[N m]", "_xy[N m]", "_yx[N m]", "_yy[N m]"}) {
+      table.columns.push_back(std::string(name) + component);
+      table.rows[0].push_back(++number);
+    }
+  const auto half = ContactSumsReader(table, {parse_rule("half")}).read(0);
+  const auto size = ContactSumsReader(table, {parse_rule("size")}).read(0);
+  EXPECT_TRUE(size.at_centres);
+  EXPECT_EQ(size.of(PairSum::at_larger, 0)(1, 1), 12);
+  EXPECT_EQ(partial_stress(size, parse_rule("uniform:0.3")).total,
+            partial_stress(half, parse_rule("uniform:0.3")).total);
 }
 
 TEST(ContactSumsReader, AMissingColumnIsNamedTogetherWithItsRemedy)
