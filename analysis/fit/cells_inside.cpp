@@ -106,7 +106,8 @@ HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin)
   HeightRange range{infinity, -infinity};
   double inner = 0;  // solid fraction of the next annulus inside
   for (const auto& mean : mean_layers(annuli)) {
-    if (mean.solid >= half) range.lowest = std::min(range.lowest, mean.bottom);
+    if (mean.solid >= half)
+      range.lowest = std::min(range.lowest, mean.bottom > 0 ? mean.bottom + margin : 0);
     if (mean.solid > 0) {
       const double filled = std::min(1.0, mean.solid / inner);
       range.highest = mean.bottom + filled * (mean.top - mean.bottom) - margin;
