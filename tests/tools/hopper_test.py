@@ -25,7 +25,7 @@ def run(tool, *arguments):
 
 def table(tool, *arguments):
     """Columns of the tool's table, without the rows of the whole bed, and its remarks."""
-    remarks = run(tool, "run.h5", "--window", "all", "--begin", "0.4", *arguments, "-o", f"{tool}.tsv")
+    remarks = run(tool, "run.h5", "--window", "all", "--begin", "0.1", *arguments, "-o", f"{tool}.tsv")
     with open(f"{tool}.tsv", encoding="utf-8") as file:
         lines = [line.rstrip("\n").split("\t") for line in file if not line.startswith("#")]
     names = [name.split("[")[0] for name in lines[0]]
@@ -37,7 +37,7 @@ def counts_of_run():
     """Means per frame, by definition: mobile grains, those in the bed, their area or volume, and contacts among them."""
     with h5py.File("run.h5") as file:
         grains = file["particles/grains"]
-        used = grains["position/time"][:] > 0.4
+        used = grains["position/time"][:] > 0.1
         y, radius, mobile = grains["position/value"][used, :, 1], grains["radius"][:], grains["fixed"][:] == 0
         bottom = np.minimum(y[:, ~mobile].min(axis=1), -2 * radius[mobile].max())
         inside = mobile & (y >= bottom[:, None])
@@ -48,7 +48,7 @@ def counts_of_run():
             own = slice(offset[frame], offset[frame + 1])
             both = there[i[own]] & (there[j[own]] | (j[own] < 0) | ~mobile[j[own]])
             number += (pushing[own] & both).sum()
-            across += (pushing[own] & (there[i[own]] ^ (there[j[own]] | (j[own] < 0) | ~mobile[j[own]]))).sum()
+            across += (pushing[own] & (j[own] >= 0) & mobile[j[own]] & (there[i[own]] != there[j[own]])).sum()
         content = np.pi * radius**2 if grains["position/value"].shape[2] == 2 else 4 * np.pi / 3 * radius**3
         frames = used.sum()
         return {"mobile": mobile.sum(), "inside": inside.sum() / frames, "content": (inside * content).sum() / frames,
@@ -60,7 +60,7 @@ def total(columns, *names):
 
 
 def check(dimension):
-    run("sim", SCENE, "--depth", "12dS", "--outlet", "6dS", "--size-ratio", "1.5", "--phi-large", "0.3", *SIZE[dimension], "--duration", "0.7",
+    run("sim", SCENE, "--depth", "16dS", "--outlet", "8dS", "--size-ratio", "2", "--phi-large", "0.3", *SIZE[dimension], "--duration", "0.7",
         "--frame-interval", "0.02", "--accuracy", "draft", "-o", "run.h5")
     known = counts_of_run()
     assert known["inside"] < 0.7 * known["mobile"], "few grains have left"
@@ -88,11 +88,11 @@ def check(dimension):
     assert np.isclose(total(whole, "grains_S", "grains_L"), known["mobile"], rtol=1e-12) and "below the base" not in remarks, remarks
 
     if os.path.exists(f"{BIN}/grseg-report"):
-        run("report", "run.h5", "--window", "all", "--begin", "0.4", "-o", "page.html")
+        run("report", "run.h5", "--window", "all", "--begin", "0.1", "-o", "page.html")
         with open("page.html", encoding="utf-8") as page:
             assert "grains below the base, up to" in page.read()
     if dimension == 3:
-        run("micro", "run.h5", "--window", "all", "--begin", "0.4", "-o", "micro.tsv")
+        run("micro", "run.h5", "--window", "all", "--begin", "0.1", "-o", "micro.tsv")
         with open("micro.tsv", encoding="utf-8") as file:
             rows = [line.split("\t") for line in file if not line.startswith("#")]
         place = [name.split("[")[0] for name in rows[0]].index("height")
@@ -100,11 +100,11 @@ def check(dimension):
         above, _ = table("stress", "--bins", "xz", "--layer", "2dS")
         with open("stress.tsv", encoding="utf-8") as file:
             assert f"# height: {height:.17g}\n" in file.read(), height
-        assert above["nu"].max() < DENSEST[3], above["nu"].max()
+        assert above["nu"].max() < 1, above["nu"].max()  # above the mean of the bed where its surface is higher than the mean
         assert np.isclose(total(above, *content), known["content"], rtol=1e-12)
         assert np.isclose(total(above, *CONTACTS), known["contacts"], rtol=1e-12)
         coordination, _ = table("micro", "--bins", "xz", "--layer", "2dS")
-        run("micro", "run.h5", "--window", "all", "--begin", "0.4", "--bins", "xz", "--layer", "2dS", "-o", "map.h5")
+        run("micro", "run.h5", "--window", "all", "--begin", "0.1", "--bins", "xz", "--layer", "2dS", "-o", "map.h5")
         with h5py.File("map.h5") as file:
             assert np.allclose(file["z"], np.unique((coordination["z0"] + coordination["z1"]) / 2))
             assert np.array_equal(file["z_all"][:].ravel(), coordination["z"], equal_nan=True)
