@@ -28,7 +28,7 @@ struct SpeciesMomentum {
   Vector<D> contact = Vector<D>::Zero();      // -d/dy of the contact stress
   Vector<D> kinetic = Vector<D>::Zero();      // -d/dy of the flux of momentum by moving grains
   Vector<D> interaction = Vector<D>::Zero();  // force of the other species
-  Vector<D> base = Vector<D>::Zero();         // force of boundary grains and walls
+  Vector<D> base = Vector<D>::Zero();         // force of the base
   Vector<D> force = Vector<D>::Zero();        // the grains' stored forces, equal to rate - kinetic
 
   /// The rate minus all terms of the balance: round-off.
@@ -53,7 +53,10 @@ struct SpeciesMomentum {
 ///   contact      sum f_ij [S(y_i) - S(c)]              over all contacts
 ///   kinetic      sum (m/h) v [S(y_i + h v_y) - S(y_i)]
 ///   interaction  sum f_ij S(c)                         over contacts with the other species
-///   base         sum f_ij S(c)                         over contacts with the boundary
+///   base         sum f_ij S(c)                         over contacts with the base
+///
+/// The base is what does not belong to the bed: boundary grains, walls, and grains that have left
+/// the bed (grains_below.hpp).
 ///
 ///   rate = gravity + contact + kinetic + interaction + base
 ///
@@ -124,7 +127,7 @@ struct PartitionedForces {
   Tensor<D> stress = Tensor<D>::Zero();
   Vector<D> contact = Vector<D>::Zero();      // C = -d/dy of `stress`
   Vector<D> interaction = Vector<D>::Zero();  // force beta of the other species
-  Vector<D> base = Vector<D>::Zero();         // force of boundary grains and walls; for any rule
+  Vector<D> base = Vector<D>::Zero();         // force of the base; for any rule
 
   static constexpr auto members =
       std::tuple(&PartitionedForces::stress, &PartitionedForces::contact,

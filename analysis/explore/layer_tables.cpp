@@ -4,6 +4,7 @@
 #include "analysis/explore/run_of_page.hpp"
 #include "analysis/frames/composition.hpp"
 #include "analysis/frames/sums.hpp"
+#include "analysis/frames/table_writer.hpp"
 #include "analysis/micro/derived_quantities.hpp"
 #include "analysis/micro/structure_sums.hpp"
 #include "analysis/segregation/rates.hpp"
@@ -25,7 +26,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Builds a table with one row per layer: means over windows, weighted by the frames of each window.
+/// Builds a table with one row per layer: means over the frames of all windows. A window that does
+/// not reach up to a layer counts with the numbers of an empty layer: 0, or NaN for quotients. NaN
+/// and infinities are left out of the means.
 class LayerTable {
  public:
   LayerTable(const char* name, const char* tool, const char* note, std::vector<std::string> shown)
@@ -34,32 +37,35 @@ class LayerTable {
                {"note", note},
                {"columns", Json::array()},
                {"shown", std::move(shown)},
-               {"rows", Json::array()}}
+               {"rows", Json::array()},
+               {"frames", Json::array()}}
   {
   }
 
-  /// Adds the numbers of one layer in one window; NaN and infinities are left out of the means.
+  /// Adds the numbers of one layer in one window.
   void add(const Window& window, std::size_t layer, const std::vector<Cell>& cells)
   {
-    if (columns_.empty()) columns_ = columns_of(cells);
-    while (means_.size() <= layer) means_.emplace_back(columns_.size());
-    const auto values = values_of(cells);
+    if (layers_.size() <= layer) layers_.resize(layer + 1);
+    auto& own = layers_[layer];
     const auto frames = static_cast<double>(window.frames.size());
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (std::isfinite(values[k])) {
-        means_[layer][k].sum += frames * values[k];
-        means_[layer][k].frames += frames;
-      }
+    own.frames += frames;
+    own.add(frames, values_of(cells));
   }
-  /// The finished table; layer_tables() describes its entries.
-  Json take(const Layers& layers)
+  /// The finished table over all windows of the loop, which layer_tables() describes. `empty`: the
+  /// numbers of an empty layer.
+  Json take(const FrameLoop& loop, const std::vector<Cell>& empty)
   {
+    double all = 0;
+    for (const auto& window : loop.windows()) all += static_cast<double>(window.frames.size());
     table_["columns"] = {"y0[m]", "y1[m]"};
-    for (const auto& column : columns_) table_["columns"].push_back(column);
-    for (std::size_t layer = 0; layer < means_.size(); ++layer) {
-      Json row{layers.bottom(layer), layers.top(layer)};
-      for (const auto& mean : means_[layer]) row.push_back(ratio(mean.sum, mean.frames));
+    for (const auto& column : columns_of(empty)) table_["columns"].push_back(column);
+    for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+      auto& own = layers_[layer];
+      if (own.frames < all) own.add(all - own.frames, values_of(empty));
+      Json row{loop.layers().bottom(layer), loop.layers().top(layer)};
+      for (const auto& mean : own.means) row.push_back(ratio(mean.sum, mean.frames));
       table_["rows"].push_back(std::move(row));
+      table_["frames"].push_back(own.frames);
     }
     return std::move(table_);
   }
@@ -68,10 +74,34 @@ class LayerTable {
   struct Mean {
     double sum = 0, frames = 0;
   };
+  struct Layer {
+    double frames = 0;        // of the windows that reach up to the layer
+    std::vector<Mean> means;  // by column
+
+    void add(double weight, const std::vector<double>& values)
+    {
+      means.resize(values.size());
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!std::isfinite(values[k])) continue;
+        means[k].sum += weight * values[k];
+        means[k].frames += weight;
+      }
+    }
+  };
   Json table_;
-  std::vector<std::string> columns_;
-  std::vector<std::vector<Mean>> means_;  // by layer and column
+  std::vector<Layer> layers_;
 };
+
+/// Sums over two frames without grains, which have one empty layer.
+template <int D, class Sums>
+Sums of_no_grains(Sums sums)
+{
+  Frame<D> frame;
+  sums.add(Grains{}, frame);
+  frame.time = 1;
+  sums.add(Grains{}, frame);
+  return sums;
+}
 
 /// Partial stress of each species and component, in columns such as "sigma_S_yy[N/m]".
 template <int D>
@@ -114,16 +144,17 @@ Json stress_table(FrameLoop& loop)
       "stress", "grseg-stress", "Contact stress; mixed contacts shared by size.",
       {"nu", "phi_L", std::string("sigma_yy") + unit, "stress_ratio",
        std::string("sigma_S_yy") + unit, std::string("sigma_L_yy") + unit, "mixed_share_yy"});
+  const Composition<D> no_grains(layers, GrainArea::clipped, std::nullopt, species);
+  const PartialContactStress<D> no_contacts(layers, Assignment::contact_point, std::nullopt,
+                                            std::nullopt, species);
   for (const auto& window : loop.windows()) {
     const auto [composition, contacts] =
-        loop.sum<D>(window, {.velocity = false, .contacts = true},
-                    Composition<D>(layers, GrainArea::clipped, std::nullopt, species),
-                    PartialContactStress<D>(layers, Assignment::contact_point, std::nullopt,
-                                            std::nullopt, species));
+        loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains, no_contacts);
     for (std::size_t layer = 0; layer < contacts.layers(); ++layer)
       table.add(window, layer, stress_cells(loop, composition, contacts, layer));
   }
-  return table.take(layers);
+  return table.take(
+      loop, stress_cells(loop, of_no_grains<D>(no_grains), of_no_grains<D>(no_contacts), 0));
 }
 
 template <int D>
@@ -136,54 +167,43 @@ Json kinetic_table(FrameLoop& loop)
                    "Mean flow, and granular temperatures about its profile in each window.",
                    {"u[m/s]", "du_dy[1/s]", "T_S_x[m^2/s^2]", "T_S_y[m^2/s^2]", "T_L_x[m^2/s^2]",
                     "T_L_y[m^2/s^2]", "equipartition_y"});
+  const MeanVelocity<D> no_grains(layers, loop.run().small_diameter() / 2, species.size());
+  const auto about = [&](const MeanVelocity<D>& mean) {
+    return KineticStress<D>(layers, MeanFlow::profile, mean, species.size());
+  };
   for (const auto& window : loop.windows()) {
-    const auto [mean] = loop.sum<D>(
-        window, moving, MeanVelocity<D>(layers, loop.run().small_diameter() / 2, species.size()));
-    const auto [stress] = loop.sum<D>(
-        window, moving, KineticStress<D>(layers, MeanFlow::profile, mean, species.size()));
+    const auto [mean] = loop.sum<D>(window, moving, no_grains);
+    const auto [stress] = loop.sum<D>(window, moving, about(mean));
     for (std::size_t layer = 0; layer < stress.layers(); ++layer)
       table.add(window, layer, stress.cells(species, layer));
   }
-  return table.take(layers);
-}
-
-template <int D>
-RunConstants constants_of(const FrameLoop& loop)
-{
-  const auto& parameters = loop.run().parameters();
-  const auto number = [&](const char* name) {
-    return parameters.find_number(name).value_or(no_number);
-  };
-  const auto gravity = loop.run().gravity<D>();
-  RunConstants constants{loop.species()[0].diameter, loop.species()[1].diameter,
-                         gravity.start.x(),          gravity.start.y(),
-                         number("density"),          number("friction")};
-  if constexpr (D == 3) constants.gravity_z = gravity.start.z();
-  return constants;
+  return table.take(loop, of_no_grains<D>(about(of_no_grains<D>(no_grains))).cells(species, 0));
 }
 
 template <int D>
 Json micro_table(FrameLoop& loop)
 {
-  const auto constants = constants_of<D>(loop);
+  const auto constants = read_run_constants(empty_table(loop, "", {}, {}));
   const auto& layers = loop.layers();
   LayerTable table("micro", "grseg-derive", "Contacts per grain, mean forces, friction and fabric.",
                    {"z_S", "z_L", "f_S[N]", "f_L[N]", "f_SS[N]", "f_LS[N]", "f_LL[N]",
                     "mixed_share", "neutral_share", "sliding_all"});
+  const StructureByLayer<D> no_grains(layers, GrainArea::clipped, constants.friction);
+  const auto cells_of = [&](const StructureByLayer<D>& micro, const Window& window,
+                            std::size_t layer) {
+    const SumsRow<D> row{{window.begin, window.end, layers.bottom(layer), layers.top(layer),
+                          static_cast<double>(window.frames.size()), layers.volume(layer)},
+                         micro.mean(layer),
+                         {},
+                         micro.heights().bed};
+    return derived_quantities(row, constants, DerivedSettings{});
+  };
   for (const auto& window : loop.windows()) {
-    const auto [micro] =
-        loop.sum<D>(window, {.velocity = false, .contacts = true},
-                    StructureByLayer<D>(layers, GrainArea::clipped, constants.friction));
-    for (std::size_t layer = 0; layer < micro.layers(); ++layer) {
-      const SumsRow<D> row{{window.begin, window.end, layers.bottom(layer), layers.top(layer),
-                            static_cast<double>(window.frames.size()), layers.volume(layer)},
-                           micro.mean(layer),
-                           {},
-                           micro.heights().bed};
-      table.add(window, layer, derived_quantities(row, constants, DerivedSettings{}));
-    }
+    const auto [micro] = loop.sum<D>(window, {.velocity = false, .contacts = true}, no_grains);
+    for (std::size_t layer = 0; layer < micro.layers(); ++layer)
+      table.add(window, layer, cells_of(micro, window, layer));
   }
-  return table.take(layers);
+  return table.take(loop, cells_of(of_no_grains<D>(no_grains), loop.windows().front(), 0));
 }
 
 template <int D>
@@ -201,14 +221,14 @@ Json balance_table(FrameLoop& loop)
           : "Momentum balance of each species; contacts of two species cut at the contact point.",
       {"gravity_L_y" + unit, "contact_L_y" + unit, "interaction_L_y" + unit, "base_L_y" + unit,
        "kinetic_L_y" + unit, "push" + unit, "push_kinetic" + unit, "drag" + unit});
+  const MomentumBalance<D> no_grains(layers, kernel, run.gravity<D>(), run.step(), species.size());
   for (const auto& window : loop.windows()) {
-    const auto [balance] = loop.sum<D>(
-        window, {.velocity = true, .contacts = true, .force = true},
-        MomentumBalance<D>(layers, kernel, run.gravity<D>(), run.step(), species.size()));
+    const auto [balance] =
+        loop.sum<D>(window, {.velocity = true, .contacts = true, .force = true}, no_grains);
     for (std::size_t layer = 0; layer < balance.layers(); ++layer)
       table.add(window, layer, balance_cells(balance, species, layer));
   }
-  return table.take(layers);
+  return table.take(loop, balance_cells(of_no_grains<D>(no_grains), species, 0));
 }
 
 /// First column of grseg-segregation's table that describes the whole bed; columns before it describe layers.

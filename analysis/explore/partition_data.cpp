@@ -6,6 +6,7 @@
 #include "analysis/fit/flows.hpp"
 #include "analysis/fit/make_report.hpp"
 #include "analysis/frames/layer_key.hpp"
+#include "analysis/frames/runs_of_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -63,12 +64,29 @@ void add_points(const FitData& data, const FitSettings& settings, const std::str
   }
 }
 
+/// Number of frames in all windows of the filter whose layers are as thick as this one.
+double frames_of_all(const std::vector<FitTable>& tables, const RowFilter& filter,
+                     const Span& layer)
+{
+  const double thickness = layer.second - layer.first;
+  double frames = 0;
+  for (const auto& table : tables) {
+    std::map<Span, double> windows;
+    for (const auto& row : table.rows)
+      if (filter.holds_window(row.key) &&
+          std::abs(row.key.top - row.key.bottom - thickness) < 1e-6 * thickness)
+        windows[{row.key.begin, row.key.end}] = row.key.frames;
+    for (const auto& [window, own] : windows) frames += own;
+  }
+  return frames;
+}
+
 /// Means of each layer over the times of the filter and all tables; the result looks like samples of a
-/// single window.
+/// single window. In windows that do not reach up to the layer it is empty.
 FitData layer_means(const std::vector<FitTable>& tables, const RowFilter& filter,
                     const SpeciesPair& pair)
 {
-  std::map<std::pair<double, double>, std::vector<const FitRow*>> rows;
+  std::map<Span, std::vector<const FitRow*>> rows;
   for (const auto& table : tables)
     for (const auto& row : table.rows)
       if (row.key.frames > 0 && filter.holds_window(row.key))
@@ -84,7 +102,9 @@ FitData layer_means(const std::vector<FitTable>& tables, const RowFilter& filter
     for (const auto* row : of_layer) key.frames += row->key.frames;
     ContactSums<3> mean(data.species.size());
     mean.at_centres = of_layer.front()->sums.at_centres;
-    for (const auto* row : of_layer) mean += row->sums / (key.frames / row->key.frames);
+    const double all = frames_of_all(tables, filter, heights);
+    for (const auto* row : of_layer) mean += row->sums / (all / row->key.frames);
+    mean.volume = of_layer.front()->sums.volume;
     const double small = mean.content[pair.smaller], large = mean.content[pair.larger];
     if (!(small + large > 0)) continue;
     data.samples.push_back({.phi_large = large / (small + large),

@@ -55,12 +55,14 @@ nlohmann::ordered_json run_summary(const TrajectoryReader& run);
 nlohmann::ordered_json check_run(const std::string& path);
 
 /// Results of grseg-stress, -kinetic, -derive and -balance for a run with default options, by layer. Each
-/// number is a mean over all windows, weighted by frames. The entry "tables" is a list of
+/// number is a mean over all windows, weighted by frames. A window that does not reach up to a layer counts
+/// with an empty one: 0 for sums, and left out of the means of quotients. The entry "tables" is a list of
 ///
 ///   {"name": "kinetic", "tool": "grseg-kinetic", "note": "...", "columns": ["y0[m]", ...],
-///    "shown": ["u[m/s]", ...], "rows": [[...], ...]}
+///    "shown": ["u[m/s]", ...], "rows": [[...], ...], "frames": [...]}
 ///
-/// `shown` names the columns that the page shows first. The frames are read several times. A table that
+/// `shown` names the columns that the page shows first. `frames` has for each row the number of frames of
+/// the windows that reach up to it. The frames are read several times. A table that
 /// the run does not allow (not two species, no forces on grains) is left out; the entry "missing" says why.
 nlohmann::ordered_json layer_tables(FrameLoop& loop);
 

@@ -105,7 +105,7 @@ HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin)
   double inner = 0;  // solid fraction of the next annulus inside
   for (const auto& mean : mean_layers(annuli)) {
     const auto& [bottom, top] = std::pair(mean.key.bottom, mean.key.top);
-    if (mean.solid >= half) range.lowest = std::min(range.lowest, bottom);
+    if (mean.solid >= half) range.lowest = std::min(range.lowest, bottom > 0 ? bottom + margin : 0);
     if (mean.solid > 0) {
       const double filled = std::min(1.0, mean.solid / inner);
       range.highest = bottom + filled * (top - bottom) - margin;

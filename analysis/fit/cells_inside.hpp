@@ -22,10 +22,11 @@ struct OpenEnds {
 std::vector<bool> cells_inside(const std::vector<LayerSolid>& rows, const OpenEnds& ends,
                                double margin);
 
-/// The range of distances from the axis (m), for `--heights inside` of annuli: from the innermost
-/// annulus with at least half the median solid fraction, averaged over windows, to `margin` within
-/// the wall. There is no margin at the axis, where the bed goes on. The wall is where the outermost
-/// annulus would end if it were as full as the one inside it.
+/// The range of distances from the axis (m), for `--heights inside` of annuli: without `margin` at
+/// the surface and at the wall. The surface is where the innermost annulus with at least half the
+/// median solid fraction, averaged over windows, begins; at the axis there is none, since the bed
+/// goes on. The wall is where the outermost annulus would end if it were as full as the one inside
+/// it.
 HeightRange annuli_inside(const std::vector<LayerSolid>& annuli, double margin);
 
 }  // namespace grseg

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "analysis/frames/layers.hpp"
 #include "formats/core/frame.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -35,6 +37,16 @@ ForceParts<D> force_parts(const ContactList<D>& contacts, std::size_t contact)
     return {n, f.dot(n), f.y() * n.x() - f.x() * n.y()};
   else
     return {n, f.dot(n), f.cross(n).norm()};
+}
+
+/// Layer or cell that contains the contact point. Above the last of `count` layers, which contains
+/// the top of the highest grain of this frame, a contact belongs to the last one.
+template <int D>
+std::size_t layer_of_contact(const Layers& layers, const Grains& grains, const Frame<D>& frame,
+                             std::size_t contact, std::size_t count)
+{
+  const Vector<D> point = contact_point(grains, frame, contact);
+  return std::min(layers.holding<D>(point, layers.height<D>(point)), count - 1);
 }
 
 /// Zero as an angular velocity or a torque.

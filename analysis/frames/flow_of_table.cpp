@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <utility>
 

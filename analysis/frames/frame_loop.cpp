@@ -123,8 +123,9 @@ void FrameLoop::read(std::size_t index, Frame<D>& frame, TrajectoryReader::Field
     packed = run_.load(index, frame, fields);
   }
   run_.unpack(packed, frame);
-  if (options_.bins != "layers") return;
-  const auto below = remove_grains_below(grouped_.grains, frame);
+  if (!options_.of_bed()) return;
+  const auto below = remove_grains_below(
+      grouped_.grains, frame, fields.force ? ContactsAcross::kept : ContactsAcross::removed);
   if (below == 0) return;
   const std::lock_guard lock(reading_);
   most_below_ = std::max(most_below_, below);
@@ -161,7 +162,7 @@ void FrameOptions::add_to(po::options_description& options, Makes makes)
 {
   auto add = options.add_options();
   add("layer", po::value(&layer)->default_value(layer)->value_name("LENGTH"),
-      "thickness of layers, in diameters (4dS: of small, 2dL: of large grains), 20mm, or metres");
+      "thickness of layers, in diameters (4dS: of small, 2dL: of large grains), or 20mm, 0.02m");
   add("window", window_option(windows),
       "length of windows that results are averaged over; windows that the run does not fill are "
       "left out. all: one window over all frames used");

@@ -46,6 +46,9 @@ struct FrameOptions {
   void add_parts_to(po::options_description& options) { parts.add_to(options); }
 
   bool annuli() const { return bins.starts_with("radius"); }
+  /// True if grains that have left the bed belong to no bin, since bins have no height of their own
+  /// below the base: layers and maps xz.
+  bool of_bed() const { return bins == "layers" || bins == "xz"; }
   /// The plane of the map; nothing unless --bins asks for a map.
   std::optional<MapPlane> map() const;
   /// x and y of the axis of annuli or of a map rz, m: the axis in --bins, or else the axis of the

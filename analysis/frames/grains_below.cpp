@@ -21,25 +21,34 @@ double bottom_of_bed(const Grains& grains, const Frame<D>& frame)
   return std::min(bottom, -largest);
 }
 
-/// Removes the contacts for which `counts` returns false of one of their grains.
-template <int D, class Counts>
-void keep_contacts(ContactList<D>& contacts, const Counts& counts)
+/// Removes contacts of absent grains.
+template <int D>
+void remove_contacts(const Grains& grains, Frame<D>& frame, ContactsAcross across)
 {
-  const auto all = std::exchange(contacts, {});
+  const auto is_absent = [&](std::int32_t grain) {
+    return grain >= 0 && !is_present(frame, static_cast<std::size_t>(grain));
+  };
+  const auto is_of_bed = [&](std::int32_t grain) {
+    return grain >= 0 && is_mobile(grains, frame, static_cast<std::size_t>(grain));
+  };
+  const auto all = std::exchange(frame.contacts, {});
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (!counts(all.i[k]) || (all.j[k] >= 0 && !counts(all.j[k]))) continue;
-    contacts.i.push_back(all.i[k]);
-    contacts.j.push_back(all.j[k]);
-    contacts.force.push_back(all.force[k]);
-    contacts.branch.push_back(all.branch[k]);
-    contacts.gap.push_back(all.gap[k]);
+    const auto i = all.i[k], j = all.j[k];
+    const bool left = is_absent(i);
+    if ((left || is_absent(j)) && across == ContactsAcross::removed) continue;
+    if (left && !is_of_bed(j)) continue;
+    frame.contacts.i.push_back(left ? j : i);
+    frame.contacts.j.push_back(left ? i : j);
+    frame.contacts.force.push_back(left ? -all.force[k] : all.force[k]);
+    frame.contacts.branch.push_back(left ? -all.branch[k] : all.branch[k]);
+    frame.contacts.gap.push_back(all.gap[k]);
   }
 }
 
 }  // namespace
 
 template <int D>
-std::size_t remove_grains_below(const Grains& grains, Frame<D>& frame)
+std::size_t remove_grains_below(const Grains& grains, Frame<D>& frame, ContactsAcross across)
 {
   const double bottom = bottom_of_bed(grains, frame);
   std::size_t removed = 0;
@@ -48,14 +57,11 @@ std::size_t remove_grains_below(const Grains& grains, Frame<D>& frame)
     make_absent(frame, g);
     ++removed;
   }
-  if (removed > 0)
-    keep_contacts(frame.contacts, [&](std::int32_t grain) {
-      return is_present(frame, static_cast<std::size_t>(grain));
-    });
+  if (removed > 0) remove_contacts(grains, frame, across);
   return removed;
 }
 
-template std::size_t remove_grains_below(const Grains&, Frame<2>&);
-template std::size_t remove_grains_below(const Grains&, Frame<3>&);
+template std::size_t remove_grains_below(const Grains&, Frame<2>&, ContactsAcross);
+template std::size_t remove_grains_below(const Grains&, Frame<3>&, ContactsAcross);
 
 }  // namespace grseg

@@ -80,8 +80,9 @@ std::vector<LayerSolid> mean_layers(const std::vector<LayerSolid>& layers)
 std::string heights_in_words(const std::string& text, bool annuli)
 {
   if (text != inside_the_bed) return text;
-  return fmt::format("inside: without {:g} d_S at the {}", margin_inside,
-                     annuli ? "wall" : "base and under the surface");
+  return fmt::format(
+      "inside: without {:g} d_S at the {}", margin_inside,
+      annuli ? "wall and, off the axis, at the surface" : "base and under the surface");
 }
 
 void check_heights(const std::string& text)

@@ -36,7 +36,7 @@ inline constexpr double margin_inside = 4;
 /// Values of --heights, for --help.
 inline constexpr const char* heights_help =
     "inside (without 4 dS at the base and 4 dS under the surface; of annuli: without 4 dS at the "
-    "wall), all, or y0:y1, e.g. 4dS:56dS or 4dS: (dS, dL: diameters of small and large grains)";
+    "wall and, off the axis, at the surface), all, or y0:y1, e.g. 4dS:56dS or 4dS: (dS, dL: diameters of small and large grains)";
 /// Description of a value of --heights for the header of a table, of layers or of annuli.
 std::string heights_in_words(const std::string& text, bool annuli = false);
 

@@ -10,18 +10,19 @@
 namespace grseg {
 namespace {
 
-/// Calls use(layer, type, f_n) for every contact that bears a force.
-template <int D, class Use>
+/// Calls use(layer, type, f_n) for every contact that bears a force. `by_layer` grows to the layers
+/// of the frame.
+template <int D, class Sums, class Use>
 void for_each_loaded_contact(const Grains& grains, const Frame<D>& frame, const Layers& layers,
-                             std::size_t count, const Use& use)
+                             std::vector<Sums>& by_layer, const Use& use)
 {
   const auto& list = frame.contacts;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (!bears_force(list, k)) continue;
-    const std::size_t layer = layers.at(contact_point(grains, frame, k).y());
-    use(std::min(layer, count - 1), static_cast<std::size_t>(pair_type(grains, frame, k)),
-        force_parts(list, k).f_n);
-  }
+  const std::size_t count = layers.count(grains, frame);
+  by_layer.resize(std::max(by_layer.size(), count));
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (bears_force(list, k))
+      use(layer_of_contact(layers, grains, frame, k, count),
+          static_cast<std::size_t>(pair_type(grains, frame, k)), force_parts(list, k).f_n);
 }
 
 /// One bin of the histogram of f_n/<f_n>.
@@ -50,8 +51,7 @@ std::vector<Cell> cells(const Bin& bin)
 template <int D>
 void MeanNormalForce<D>::add(const Grains& grains, const Frame<D>& frame)
 {
-  sums_.resize(std::max(sums_.size(), layers_.count(grains, frame)));
-  for_each_loaded_contact(grains, frame, layers_, sums_.size(),
+  for_each_loaded_contact(grains, frame, layers_, sums_,
                           [&](std::size_t layer, std::size_t type, double f_n) {
                             sums_[layer][type] += {1, f_n};
                           });
@@ -71,12 +71,15 @@ double MeanNormalForce<D>::of(std::size_t layer, PairType type) const
 }
 
 template <int D>
-double MeanNormalForce<D>::between_grains(std::size_t layer) const
+double MeanNormalForce<D>::of_layer(std::size_t layer) const
 {
-  Sum all;
+  Sum between_grains, with_base;
   for (const auto type : {PairType::SS, PairType::LS, PairType::LL})
-    all += sums_[layer][static_cast<std::size_t>(type)];
-  return ratio(all.force, all.contacts);
+    between_grains += sums_[layer][static_cast<std::size_t>(type)];
+  for (const auto type : {PairType::Sb, PairType::Lb})
+    with_base += sums_[layer][static_cast<std::size_t>(type)];
+  const auto& used = between_grains.contacts > 0 ? between_grains : with_base;
+  return ratio(used.force, used.contacts);
 }
 
 template <int D>
@@ -101,12 +104,11 @@ template <int D>
 void ForceDistribution<D>::add(const Grains& grains, const Frame<D>& frame)
 {
   ++frames_;
-  counts_.resize(std::max(counts_.size(), layers_.count(grains, frame)));
   for_each_loaded_contact(
-      grains, frame, layers_, counts_.size(), [&](std::size_t layer, std::size_t type, double f_n) {
+      grains, frame, layers_, counts_, [&](std::size_t layer, std::size_t type, double f_n) {
         const double unit = unit_ == ForceUnit::type ? mean_.of(layer, static_cast<PairType>(type))
-                                                     : mean_.between_grains(layer);
-        if (unit > 0) counts_[layer][bin_of(f_n / unit)][type] += 1;
+                                                     : mean_.of_layer(layer);
+        counts_[layer][bin_of(f_n / std::max(unit, 0.0))][type] += 1;
       });
 }
 

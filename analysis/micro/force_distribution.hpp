@@ -25,7 +25,8 @@ class MeanNormalForce {
   void merge(const MeanNormalForce& others);
   /// Mean normal force, N; NaN without contacts.
   double of(std::size_t layer, PairType type) const;
-  double between_grains(std::size_t layer) const;
+  /// Mean over the contacts between mobile grains; without them, over the contacts with the base.
+  double of_layer(std::size_t layer) const;
 
  private:
   struct Sum {
@@ -38,14 +39,14 @@ class MeanNormalForce {
 
 /// Mean force <f_n> by which the normal force of a contact is divided.
 enum class ForceUnit {
-  layer,  ///< mean over all contacts between mobile grains in the layer
+  layer,  ///< MeanNormalForce::of_layer()
   type,   ///< mean over the contacts of the same pair type in the layer
 };
 inline constexpr Choice<ForceUnit> force_units[] = {{"layer", ForceUnit::layer},
                                                     {"type", ForceUnit::type}};
 
 /// Histogram of x = f_n/<f_n> by pair type: numbers of contacts per frame in bins of x; the last
-/// bin has no upper edge. The frames of a window are read twice, first for the mean, then for the
+/// bin has no upper edge, and has also the pushing contacts where the mean is not positive. The frames of a window are read twice, first for the mean, then for the
 /// histogram. If 1 is a multiple of the bins' width, a bin begins exactly at 1, so that strong
 /// contacts (x > 1, Radjai et al. 1998) have bins of their own.
 template <int D>

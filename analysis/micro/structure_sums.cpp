@@ -275,6 +275,7 @@ template <int D>
 void StructureByLayer<D>::add_contacts(const Grains& grains, const Frame<D>& frame)
 {
   const auto& list = frame.contacts;
+  const std::size_t count = layers_.count(grains, frame);
   std::vector<LayerForce> forces(sums_.size());
   std::vector<Located> between_grains;
   between_grains.reserve(list.size());
@@ -282,7 +283,7 @@ void StructureByLayer<D>::add_contacts(const Grains& grains, const Frame<D>& fra
     if (!bears_force(list, k)) continue;
     const Vector<D>& force = list.force[k];
     const auto type = pair_type(grains, frame, k);
-    const std::size_t layer = std::min(holding(contact_point(grains, frame, k)), sums_.size() - 1);
+    const std::size_t layer = layer_of_contact(layers_, grains, frame, k, count);
     const auto [n, f_n, f_t] = force_parts(list, k);
     const Tensor<D> stress = force * list.branch[k].transpose();
 

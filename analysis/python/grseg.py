@@ -1000,6 +1000,11 @@ def _run_header(run, layers, length, stride):
     numbers |= {"layer": layers.h, "window": length, "stride": stride}
     numbers |= {key: run.parameters[key] for key in ("density", "friction", "restitution")
                 if isinstance(run.parameters.get(key), float)}
+    if not _has_one_density(run):
+        mass, content = np.where(run.mobile, run.mass, 0), np.where(run.mobile, _content(run), 0)
+        numbers["mean_density"] = mass.sum() / content.sum()
+        for k, word in enumerate(_Names(run.species, run.dimension).words):
+            numbers[f"density_{word}"] = mass[run.kind == k].sum() / max(content[run.kind == k].sum(), 1e-300)
     scene = {"scene": "; ".join(run.parameters["scene"].split("\n")).rstrip("; ")} if run.parameters.get("scene") else {}
     header = {"program": "grseg.py", "input": f"xxh3 {run.digest}", "bed": _bed_line(run),
               "verified": "no, grseg.py has no digests"}
@@ -1451,7 +1456,7 @@ class Points:
     pair           names of the two species, if the tables have more
     ratio_range    range of phi_S/phi_L
     heights        range of the layers: "inside" (without 4 d_S at the base and under the surface; of annuli: without 4 d_S
-                   at the wall), "all", or text with units, "4dS:56dS", "0.02m:" or ":120mm"
+                   at the wall and, off the axis, at the surface), "all", or text with units, "4dS:56dS", "0.02m:" or ":120mm"
     min_solid      least solid fraction of a layer, over the median of the run
     begin, end     range of the windows, s
     thickness      part of B that gradients inside the layers add: "removed" or "kept" (grseg-fit --thickness)
@@ -1644,7 +1649,8 @@ class Points:
         if _has_annuli(table):  # annuli_inside() of analysis/fit/cells_inside.cpp
             last = np.flatnonzero(filled)[-1]
             part = min(1, filled[last] / filled[last - 1]) if last > 0 and filled[last - 1] > 0 else 1
-            return base, bottoms[last] + part * (tops - bottoms)[last] - 4 * sizes[0]
+            surface = base + 4 * sizes[0] if base > 0 else 0.0
+            return surface, bottoms[last] + part * (tops - bottoms)[last] - 4 * sizes[0]
         return base + 4 * sizes[0], base + (filled * (tops - bottoms)).sum() - 4 * sizes[0]
 
     def _stresses_of(self, table, rule):

@@ -40,11 +40,27 @@ void take(const Table*& place, const Table& table, const char* tool)
   place = &table;
 }
 
+}  // namespace
+
+void require_one_density(const Table& table)
+{
+  if (!table.has_header("mean_density")) return;
+  throw UsageError(fmt::format(
+      "{}: the grains differ in density (small {:.6g}, large {:.6g} kg/m^{}), but the closure holds "
+      "for one density: heavier grains also sink by their weight. grseg-balance has the forces of "
+      "such grains",
+      table.name, table.header_number("density_S"), table.header_number("density_L"),
+      dimension_of(table)));
+}
+
+namespace {
+
 /// Pairs of tables by run, in the order of the tables of grseg-segregation.
 std::vector<RunTables> runs_of(const std::vector<Table>& tables)
 {
   std::map<std::string, RunTables> by_input;
   for (const auto& table : tables) {
+    require_one_density(table);
     auto& run = by_input[inputs_of(table)];
     if (table.has_column("q_L"))
       take(run.segregation, table, "grseg-segregation");

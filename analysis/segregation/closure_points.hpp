@@ -83,8 +83,11 @@ struct ClosureData {
   bool has_kinetic = true;  // true if all tables have the columns for kinetic terms and inertia
 };
 
+/// Throws UsageError, which names the densities, if the grains of the table's run differ in density.
+void require_one_density(const Table& table);
+
 /// Joins tables of grseg-segregation and grseg-stress, in any order, on the digest of their run and
-/// (t0, t1, y0, y1). Throws FormatError if a column is missing or a number is impossible. Throws
+/// (t0, t1, y0, y1). Throws UsageError if grains differ in density. Throws FormatError if a column is missing or a number is impossible. Throws
 /// UsageError, which names table and remedy, if a run lacks one of the two tables or has one twice,
 /// or if layers or windows of the two differ. Throws RunError if no point is left.
 ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,

@@ -71,23 +71,33 @@ void SegregationFlux<D>::add(const Grains& grains, const Frame<D>& frame)
   constexpr double round_off = 1e-9;
   const double passed = (frame.time - begin_) / length_ * static_cast<double>(parts) + round_off;
   const auto part = static_cast<std::size_t>(std::clamp(passed, 0.0, parts - 1.0));
+  if (!one_density_) one_density_ = have_one_density<D>(grains);
   Profile now(layers_.count(grains, frame));
+  struct Moved {
+    double weight = 0, all = 0, large = 0;  // weight, and weighted velocities of all and of large
+  };
+  std::vector<Moved> moved(now.size());
   Instant instant{frame.time, std::vector<std::array<double, 2>>(now.size())};
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     const auto species = static_cast<std::size_t>(grains.species[g]);
     const double y = frame.position[g].y(), radius = grains.radius[g], mass = grains.mass[g];
     const std::size_t layer = layers_.at(y);
-    now[layer].content[species] += grain_volume<D>(radius);
+    const double content = grain_volume<D>(radius), weight = *one_density_ ? mass : content;
+    now[layer].content[species] += content;
     now[layer].mass[species] += mass;
     now[layer].flow.add(mass, y - layers_.bottom(layer), frame.velocity[g]);
     const double v = frame.velocity[g].y();
     now[layer].mvv[species] += mass * v * v;
     instant.momentum[layer][species] += mass * v;
+    moved[layer].weight += weight;
+    moved[layer].all += weight * v;
+    if (species == 1) moved[layer].large += weight * v;
   }
   for (std::size_t n = 0; n < now.size(); ++n)
     if (now[n].mass[0] > 0 && now[n].mass[1] > 0)
-      now[n].excess = instant.momentum[n][1] - now[n].mass[1] * now[n].flow.mv / now[n].flow.mass;
+      now[n].excess =
+          moved[n].large - now[n].weight(*one_density_)[1] * moved[n].all / moved[n].weight;
   accumulate(profile_[part], now);
   if (first_.momentum.empty() || frame.time < first_.time) first_ = instant;
   if (last_.momentum.empty() || frame.time > last_.time) last_ = instant;
@@ -103,6 +113,7 @@ template <int D>
 void SegregationFlux<D>::merge(const SegregationFlux& others)
 {
   frames_ += others.frames_;
+  if (!one_density_) one_density_ = others.one_density_;
   for (std::size_t part = 0; part < parts; ++part) {
     accumulate(profile_[part], others.profile_[part]);
     const auto &own = snapshot_[part], &other = others.snapshot_[part];
@@ -174,8 +185,9 @@ LayerSegregation SegregationFlux<D>::evaluate(const Profile& profile, std::size_
   LayerSegregation r{};
   r.phi_large = ratio(sums.content[1], sums.content[0] + sums.content[1]);
   const double phi_small = 1 - r.phi_large;
-  r.w_small = ratio(-sums.excess, sums.mass[0]);
-  r.w_large = ratio(sums.excess, sums.mass[1]);
+  const auto& weight = sums.weight(one_density_.value_or(true));
+  r.w_small = ratio(-sums.excess, weight[0]);
+  r.w_large = ratio(sums.excess, weight[1]);
   r.q_small = phi_small > 0 ? phi_small * r.w_small : 0 * phi_small;
   r.q_large = r.phi_large > 0 ? r.phi_large * r.w_large : 0 * r.phi_large;
   r.D_small = diffusivity(0, 0);

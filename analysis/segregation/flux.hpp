@@ -8,6 +8,7 @@
 #include "formats/core/frame.hpp"
 
 #include <array>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace grseg {
 
 /// Relative motion of the species in one layer over one window.
 ///
-/// Velocities are along y, positive upward, and weighted with mass. w is the velocity of the layer
-/// in each frame; subtracting it removes the motion of the layer as a whole:
-/// w_L - w = <sum_L m (v_y - w)>/<sum_L m>, with <> the mean over frames. q_S = -q_L for grains of
-/// one density; q_L > 0 means that large grains rise.
+/// Velocities are along y, positive upward, and weighted with area or volume, as phi is, so that
+/// q_S = -q_L; grains of one density are weighted with mass, which is the same. w is the velocity of
+/// the layer in each frame; subtracting it removes the motion of the layer as a whole:
+/// w_L - w = <sum_L m (v_y - w)>/<sum_L m>, with <> the mean over frames and m the weight. q_L > 0
+/// means that large grains rise, whether size or weight drives them.
 struct LayerSegregation {
   double phi_large;           // by area or volume of the grains with their centre in the layer
   double w_small, w_large;    // w_S - w and w_L - w, m/s; NaN without grains of the species
@@ -87,7 +89,7 @@ class SegregationFlux {
   struct Sums {
     // Area or volume (m^2, m^3), mass (kg) and sum of m v_y^2 (J).
     std::array<double, 2> content{}, mass{}, mvv{};
-    double excess = 0;  // sum of m (v_y - w) over large grains, kg m/s
+    double excess = 0;  // sum of m (v_y - w) over large grains, with the weight m of velocities
     LayerFlowSums flow;
     // By lag and species: sums of (dy - <dy>)^2/(2 lag), m^2/s, and their degrees of freedom.
     std::array<std::array<double, 2>, 2> squares{}, number{};
@@ -96,6 +98,11 @@ class SegregationFlux {
         std::tuple(&Sums::content, &Sums::mass, &Sums::mvv, &Sums::excess, &Sums::flow,
                    &Sums::squares, &Sums::number);
     double phi_large() const { return content[1] / (content[0] + content[1]); }
+    /// Weight of the velocities of each species.
+    const std::array<double, 2>& weight(bool one_density) const
+    {
+      return one_density ? mass : content;
+    }
   };
   using Profile = std::vector<Sums>;  // by layer
   /// Momentum along y in the first or last frame of the window.
@@ -121,6 +128,7 @@ class SegregationFlux {
   double begin_, length_;
   std::array<double, 2> diameter_;
   std::size_t frames_ = 0;
+  std::optional<bool> one_density_;  // true if all grains have one density; set by the first frame
   std::array<Profile, parts> profile_;
   std::array<Snapshot, parts> snapshot_;
   Instant first_, last_;

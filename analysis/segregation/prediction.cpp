@@ -290,6 +290,7 @@ std::array<double, 2> slopes_of(std::vector<PredictedWindow> windows, const Pred
 
 Prediction predict(const Table& table, const FluxCoefficients& fitted, const RowFilter& filter)
 {
+  require_one_density(table);
   check(fitted);
   Prediction prediction{table.name, windows_of(table, filter), {}};
   auto& windows = prediction.windows;

@@ -57,8 +57,8 @@ using FromFlux = std::function<Estimate(double value, const std::array<double, 2
 /// shear rate changes from window to window. Layers correspond by the share of all grains below them, so
 /// that a bed may dilate. `filter` selects the windows and the least solid fraction of layers; its
 /// heights are not used, because large grains are conserved only in the whole bed. Throws
-/// FormatError if a column or a shear rate is missing or a number is impossible, RunError if fewer
-/// than two windows are left, or if `fitted` has a NaN.
+/// UsageError if grains differ in density, FormatError if a column or a shear rate is missing or a
+/// number is impossible, RunError if fewer than two windows are left, or if `fitted` has a NaN.
 Prediction predict(const Table& table, const FluxCoefficients& fitted, const RowFilter& filter);
 
 /// Throws UsageError if a table in `predicted` is of the same run as one in `fitted`, or as another

@@ -30,8 +30,8 @@ po::options_description options_into(Settings& s)
   po::options_description options("Options");
   auto add = options.add_options();
   add("unit", word_option(&s.unit, words_of(force_units)),
-      "unit of f_n, a mean force: of all contacts between grains in the layer (layer), or only of "
-      "contacts of the same pair type, such as LS (type)");
+      "unit of f_n, a mean force: of all contacts between grains in the layer, without them of its "
+      "contacts with the base (layer), or of contacts of the same pair type, such as LS (type)");
   add("bin", po::value(&s.bin)->default_value(s.bin, "0.1")->value_name("X"),
       "width of the 100 bins, in that unit; a last bin has all larger forces");
   s.frames.add_to(options);

@@ -57,18 +57,23 @@ std::size_t shorten(std::vector<Line>& lines)
   return left_out;
 }
 
-/// Columns that most readers look for in tables by layer; shown first if not all columns fit.
-constexpr std::string_view sought[] = {
-    "t0",      "y0",          "phi_L",     "yL",     "height", "z_S",   "z_L",     "f_S",
-    "f_L",     "sliding_all", "a_c_all",   "n_SS",   "n_LS",   "n_LL",  "A_SS_yy", "A_LL_yy",
-    "M_yy",    "u",           "du_dy",     "K_S_yy", "K_L_yy", "T_S_y", "T_L_y",   "Sc_S_yy",
-    "Sc_L_yy", "force_S_y",   "force_L_y", "w_L",    "q_L",    "D_S",   "D_L",     "Pe"};
+/// Columns that tell rows apart: begin of window, layer or cell, and bin of forces.
+constexpr std::string_view keys[] = {"t0", "r0", "x0", "y0", "z0"};
 
-/// Removes all columns that are not in `sought`, unless fewer than five remain.
+/// Columns that most readers look for in tables by layer; shown after the keys if not all columns fit.
+constexpr std::string_view sought[] = {
+    "phi_L",     "yL",     "height", "z_S",   "z_L",     "f_S",     "f_L",     "sliding_all",
+    "a_c_all",   "n_SS",   "n_LS",   "n_LL",  "A_SS_yy", "A_LL_yy", "M_yy",    "u",
+    "du_dy",     "K_S_yy", "K_L_yy", "T_S_y", "T_L_y",   "Sc_S_yy", "Sc_L_yy", "force_S_y",
+    "force_L_y", "w_L",    "q_L",    "D_S",   "D_L",     "Pe"};
+
+/// Removes all columns that are neither in `keys` nor in `sought`, unless fewer than five remain.
 void choose_columns(std::vector<Line>& lines)
 {
   std::vector<std::size_t> chosen;
   const auto& names = lines.front();
+  for (std::size_t c = 0; c < names.size(); ++c)
+    if (std::ranges::find(keys, without_unit(names[c])) != std::end(keys)) chosen.push_back(c);
   for (const auto name : sought)
     for (std::size_t c = 0; c < names.size(); ++c)
       if (without_unit(names[c]) == name) chosen.push_back(c);

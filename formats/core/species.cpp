@@ -83,7 +83,7 @@ Partners partners(const Grains& grains, const Frame<D>& frame, std::size_t conta
         fmt::format("contact {} of the frame at t = {:.6g} s names boundary grain {} first; "
                     "the first grain of a contact must be a mobile one",
                     contact, frame.time, i));
-  if (j < 0 || !is_mobile(grains, static_cast<std::size_t>(j))) return {i, std::nullopt};
+  if (j < 0 || !is_mobile(grains, frame, static_cast<std::size_t>(j))) return {i, std::nullopt};
   return {i, static_cast<std::size_t>(j)};
 }
 

@@ -51,7 +51,7 @@ MapTable map_table(const Table& table);
 /// True if the ending of a file name selects a map format of other programs:
 ///   .h5   HDF5 for h5py, xarray and netCDF: a dataset [time][y][x] for each column, with its unit
 ///         in the attribute `units` and dimension scales time (middle of the window), y and x
-///         (middles of the cells); t0, t1, frames [time], V [y][x], x_edges, y_edges; the header
+///         (middles of the cells); a column z beside a coordinate z is z_all; t0, t1, frames [time], V [y][x], x_edges, y_edges; the header
 ///         lines as attributes of the file
 ///   .vti  VTK image data for ParaView: an array of cells for each column; one window
 ///   .pvd  a list of times and .vti files, one for each window; the .vti files are in a folder of

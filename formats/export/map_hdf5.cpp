@@ -85,9 +85,11 @@ std::vector<double> of_windows(const MapTable& map, const Member& member)
 }
 
 /// Name of the dataset of a column. A slash would create a group, so "sum_ft/fn_SS" becomes
-/// "sum_ft_per_fn_SS".
-std::string dataset_name(const std::string& column)
+/// "sum_ft_per_fn_SS". A coordinate keeps its name, so the column "z", contacts per grain, becomes
+/// "z_all" beside "z_S" and "z_L" in maps with the coordinate z.
+std::string dataset_name(const std::string& column, const MapTable& map)
 {
+  if (column == map.axes[0].name || column == map.axes[1].name) return column + "_all";
   const auto slash = column.find('/');
   return slash == std::string::npos ? column
                                     : column.substr(0, slash) + "_per_" + column.substr(slash + 1);
@@ -112,7 +114,7 @@ void write_map_hdf5(const MapTable& map, const std::string& path, const std::str
   const auto &first = map.axes[0].name, &second = map.axes[1].name;
   file.field("V", map.volume.unit, {second, first}, map.volume.values);
   for (const auto& field : map.fields)
-    file.field(dataset_name(field.name), field.unit, {"time", second, first}, field.values);
+    file.field(dataset_name(field.name, map), field.unit, {"time", second, first}, field.values);
   file.close();
 }
 

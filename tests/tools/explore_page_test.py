@@ -645,10 +645,11 @@ def check_report(page):
 
 
 def check_means(page, name, columns):
-    """The report's tables by layer are means of the tool's rows over all windows, weighted by frames."""
+    """The report's tables by layer are means of the tool's rows over all windows, weighted by frames. A force is 0 in windows without the layer."""
     lines = [line.split("\t") for line in tool(name, RUN, "--quiet").splitlines() if not line.startswith("#")]
     at = {column: k for k, column in enumerate(lines[0])}
     rows = np.array(lines[1:], dtype=float)
+    all_frames = sum(dict(rows[:, [at["t0[s]"], at["frames"]]]).values())
     shown = page.run("return grseg.content.runs[0].layers.tables.find((t) => t.name === arguments[0])", name)
     for own in shown["rows"]:
         of_layer = rows[rows[:, at["y0[m]"]] == own[0]]
@@ -656,7 +657,7 @@ def check_means(page, name, columns):
             values, frames = of_layer[:, at[column]], of_layer[:, at["frames"]]
             known = np.isfinite(values)
             if known.any():
-                mean = (values * frames)[known].sum() / frames[known].sum()
+                mean = (values * frames)[known].sum() / (all_frames if column.startswith("push") else frames[known].sum())
                 close(own[shown["columns"].index(column)], mean, f"{column} of the layer at {own[0]}")
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Grains that have left a hopper, of discs or spheres, are in no layer of any tool's table: no layer holds more grains than fit into it, and
-all layers together hold the grains that are still in the bed. Maps and annuli hold all grains, and spheres whole.
+"""Grains that have left a hopper, of discs or spheres, are in no layer of any tool's table, nor in maps xz, which sum over the height of the bed:
+no layer or cell holds more grains than fit into it, and all together hold the grains that are still in the bed. Their forces on these grains
+count, so that each grain's balance closes. Other maps and annuli hold all grains, and spheres whole.
 
 Usage: hopper_test.py FOLDER-OF-PROGRAMS hopper.ini
 """
@@ -24,7 +25,7 @@ def run(tool, *arguments):
 
 def table(tool, *arguments):
     """Columns of the tool's table, without the rows of the whole bed, and its remarks."""
-    remarks = run(tool, "run.h5", "--window", "all", "--begin", "0.4", *arguments, "-o", f"{tool}.tsv")
+    remarks = run(tool, "run.h5", "--window", "all", "--begin", "0.1", *arguments, "-o", f"{tool}.tsv")
     with open(f"{tool}.tsv", encoding="utf-8") as file:
         lines = [line.rstrip("\n").split("\t") for line in file if not line.startswith("#")]
     names = [name.split("[")[0] for name in lines[0]]
@@ -36,21 +37,22 @@ def counts_of_run():
     """Means per frame, by definition: mobile grains, those in the bed, their area or volume, and contacts among them."""
     with h5py.File("run.h5") as file:
         grains = file["particles/grains"]
-        used = grains["position/time"][:] > 0.4
+        used = grains["position/time"][:] > 0.1
         y, radius, mobile = grains["position/value"][used, :, 1], grains["radius"][:], grains["fixed"][:] == 0
         bottom = np.minimum(y[:, ~mobile].min(axis=1), -2 * radius[mobile].max())
         inside = mobile & (y >= bottom[:, None])
         contacts, offset = file["grseg/contacts"], file["grseg/contacts/offset"][:]
         i, j, pushing = contacts["i"][:], contacts["j"][:], contacts["force"][:].any(axis=1)
-        number = 0
+        number = across = 0
         for frame, there in zip(np.flatnonzero(used), inside):
             own = slice(offset[frame], offset[frame + 1])
             both = there[i[own]] & (there[j[own]] | (j[own] < 0) | ~mobile[j[own]])
             number += (pushing[own] & both).sum()
+            across += (pushing[own] & (j[own] >= 0) & mobile[j[own]] & (there[i[own]] != there[j[own]])).sum()
         content = np.pi * radius**2 if grains["position/value"].shape[2] == 2 else 4 * np.pi / 3 * radius**3
         frames = used.sum()
         return {"mobile": mobile.sum(), "inside": inside.sum() / frames, "content": (inside * content).sum() / frames,
-                "whole": content[mobile].sum(), "contacts": number / frames, "mass": (inside * grains["mass"][:]).sum() / frames}
+                "whole": content[mobile].sum(), "contacts": number / frames, "across": across, "mass": (inside * grains["mass"][:]).sum() / frames}
 
 
 def total(columns, *names):
@@ -58,7 +60,7 @@ def total(columns, *names):
 
 
 def check(dimension):
-    run("sim", SCENE, "--depth", "12dS", "--outlet", "6dS", "--size-ratio", "1.5", "--phi-large", "0.3", *SIZE[dimension], "--duration", "0.7",
+    run("sim", SCENE, "--depth", "16dS", "--outlet", "8dS", "--size-ratio", "2", "--phi-large", "0.3", *SIZE[dimension], "--duration", "0.7",
         "--frame-interval", "0.02", "--accuracy", "draft", "-o", "run.h5")
     known = counts_of_run()
     assert known["inside"] < 0.7 * known["mobile"], "few grains have left"
@@ -79,13 +81,33 @@ def check(dimension):
     }
     for what, numbers in found.items():
         assert np.allclose(numbers, known[what], rtol=1e-12), (dimension, what, numbers, known[what])
+    residual = max(abs(balance[name]).max() for name in balance if name.startswith("residual_"))
+    assert residual < 1e-9 * max(abs(balance[name]).max() for name in balance if name.startswith("gravity_")), residual
+    assert known["across"] > 0, "no grain of the bed touches one that has left"
     whole, remarks = table("kinetic", "--bins", "xy")
     assert np.isclose(total(whole, "grains_S", "grains_L"), known["mobile"], rtol=1e-12) and "below the base" not in remarks, remarks
 
     if os.path.exists(f"{BIN}/grseg-report"):
-        run("report", "run.h5", "--window", "all", "--begin", "0.4", "-o", "page.html")
+        run("report", "run.h5", "--window", "all", "--begin", "0.1", "-o", "page.html")
         with open("page.html", encoding="utf-8") as page:
             assert "grains below the base, up to" in page.read()
+    if dimension == 3:
+        run("micro", "run.h5", "--window", "all", "--begin", "0.1", "-o", "micro.tsv")
+        with open("micro.tsv", encoding="utf-8") as file:
+            rows = [line.split("\t") for line in file if not line.startswith("#")]
+        place = [name.split("[")[0] for name in rows[0]].index("height")
+        height = next(float(row[place]) for row in rows[1:] if row[2] == "nan")
+        above, _ = table("stress", "--bins", "xz", "--layer", "2dS")
+        with open("stress.tsv", encoding="utf-8") as file:
+            assert f"# height: {height:.17g}\n" in file.read(), height
+        assert above["nu"].max() < 1, above["nu"].max()  # above the mean of the bed where its surface is higher than the mean
+        assert np.isclose(total(above, *content), known["content"], rtol=1e-12)
+        assert np.isclose(total(above, *CONTACTS), known["contacts"], rtol=1e-12)
+        coordination, _ = table("micro", "--bins", "xz", "--layer", "2dS")
+        run("micro", "run.h5", "--window", "all", "--begin", "0.1", "--bins", "xz", "--layer", "2dS", "-o", "map.h5")
+        with h5py.File("map.h5") as file:
+            assert np.allclose(file["z"], np.unique((coordination["z0"] + coordination["z1"]) / 2))
+            assert np.array_equal(file["z_all"][:].ravel(), coordination["z"], equal_nan=True)
     annuli = "--bins", "radius:30mm,20mm", "--layer", "2dS"
     if dimension == 3:
         stress, remarks = table("stress", *annuli)

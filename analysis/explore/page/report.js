@@ -115,9 +115,10 @@ function layerTable(one, smallDiameter) {
   const put = (all) => {
     const chosen = one.columns.map((c, k) => [c, k]).filter(([c, k]) => k > 1 && (all || one.shown.includes(c)));
     const some = chosen.length ? chosen : one.columns.map((c, k) => [c, k]).slice(2, 10);
-    const heads = [["y/dS"], ...some.map(([column]) => [withUnit(column), "number"])];
-    const rows = one.rows.map((row) => [
+    const heads = [["y/dS"], ["frames", "number"], ...some.map(([column]) => [withUnit(column), "number"])];
+    const rows = one.rows.map((row, layer) => [
       `${short(row[0] / smallDiameter)}–${short(row[1] / smallDiameter)}`,
+      String(one.frames[layer]),
       ...some.map(([, k]) => short(row[k])),
     ]);
     host.replaceChildren(table(heads, rows));
@@ -130,7 +131,7 @@ function layerTable(one, smallDiameter) {
     {class: "by-layer"},
     element("h4", {}, one.note),
     host,
-    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` means over windows of the rows of ${one.tool}`),
+    element("p", {class: "note screen"}, element("label", {}, box, " all columns"), " ", saveButton(one.name, one), ` means over all frames of the rows of ${one.tool}; in windows without this layer, which "frames" leaves out, it counts as empty`),
   );
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/balance/momentum_balance.hpp"
 
+#include "analysis/frames/grains_below.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -85,6 +86,26 @@ TEST(MomentumBalance, ClosesForEachSpeciesUnderAnyForces)
     EXPECT_GT(balance.mean(0, Species::small).base.norm(), 0.05);
     EXPECT_LT(largest_residual(balance), 1e-12);
   }
+}
+
+// A grain below the base still pushes two grains of the bed. Its force is one of the base.
+TEST(MomentumBalance, ClosesWhereGrainsHaveLeftTheBed)
+{
+  auto scene = random_bed(1);
+  const auto left = scene.grain(Species::large, 0.2, {1, -3});
+  scene.contact(20, left, {0.5, 2});
+  scene.contact(left, 21, {-0.25, -1});
+  scene = moved_by(scene, gravity);
+  auto without = scene;
+  remove_grains_below(scene.grains, scene.frame, ContactsAcross::kept);
+  remove_grains_below(without.grains, without.frame, ContactsAcross::removed);
+  const auto balance = balance_of({scene});
+  EXPECT_LT(largest_residual(balance), 1e-12);
+  Vec2 base(0, 0);
+  for (std::size_t n = 0; n < balance.layers(); ++n)
+    for (const auto species : {Species::small, Species::large})
+      base += balance.mean(n, species).base - balance_of({without}).mean(n, species).base;
+  EXPECT_LT((base * unit_layers.volume(0) - Vec2(0.75, 3)).norm(), 1e-12);
 }
 
 TEST(MomentumBalance, AForceWithoutAContactIsLeftAsResidualWhereItActs)

@@ -104,6 +104,20 @@ TEST(PartitionData, LayersAreMeansWeightedByFrames)
   EXPECT_EQ(unpacked::array<double>(arrays, "layer_frames", "f64")[0], 40);
 }
 
+// The upper layer is in the second window only, a quarter of all frames.
+TEST(PartitionData, ALayerThatAWindowLacksIsEmptyThere)
+{
+  BinaryArrays arrays;
+  const auto table = synthetic::stress_table({{0, 1, 30, neutral_sums(0.4, 2)},
+                                              {1, 2, 10, neutral_sums(0.4, 2)},
+                                              {1, 2, 10, neutral_sums(0.4, 2)}});
+  partition_data({{table}, {}}, settings_of("size"), arrays);
+  const auto layer = unpacked::array<double>(arrays, "layer_none_large", "f64");
+  ASSERT_EQ(layer.size(), 2u);
+  EXPECT_NEAR(layer[1], layer[0] / 4, 1e-15);
+  EXPECT_EQ(unpacked::array<double>(arrays, "layer_frames", "f64")[1], 10);
+}
+
 TEST(PartitionData, ByNeutralContactsBIsZeroBySizeAndAtTwoThirds)
 {
   BinaryArrays arrays;

@@ -60,9 +60,9 @@ TEST(CellsInside, CellsKeepTheirDistanceFromCellsThatAreLessThanHalfFull)
   EXPECT_EQ(inside(rows, {{true, true}}, 0), 12 * 10 - 1);
 }
 
-// A drum of radius 9.5, less than half full: no grains at the axis, a few in the next annulus, and
-// half of the outermost annulus lies outside its wall.
-TEST(AnnuliInside, ReachFromTheInnermostThatIsHalfFullToAMarginWithinTheWall)
+// A drum of radius 9.5, less than half full: no grains at the axis, a few in the next annulus, so
+// that the surface is at 2. Half of the outermost annulus lies outside its wall.
+TEST(AnnuliInside, ReachFromAMarginUnderTheSurfaceToAMarginWithinTheWall)
 {
   std::vector<LayerSolid> annuli;
   for (int window = 0; window < 2; ++window)
@@ -71,7 +71,7 @@ TEST(AnnuliInside, ReachFromTheInnermostThatIsHalfFullToAMarginWithinTheWall)
       annuli.push_back({{.bottom = double(k), .top = k + 1.0, .frames = 5}, solid});
     }
   const auto range = annuli_inside(annuli, 2);
-  EXPECT_DOUBLE_EQ(range.lowest, 2);
+  EXPECT_DOUBLE_EQ(range.lowest, 2 + 2);
   EXPECT_DOUBLE_EQ(range.highest, 9.5 - 2);
   annuli[0].solid = annuli[11].solid = 0.4;
   EXPECT_DOUBLE_EQ(annuli_inside(annuli, 2).lowest, 0);  // the bed goes on at the axis

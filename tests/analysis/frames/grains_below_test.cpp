@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/frames/grains_below.hpp"
 
+#include "formats/core/species.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -12,10 +13,11 @@ namespace {
 
 /// Rows of the mobile grains that remain.
 template <int D>
-std::vector<std::size_t> remaining(PackingOf<D>& packing)
+std::vector<std::size_t> remaining(PackingOf<D>& packing,
+                                   ContactsAcross across = ContactsAcross::removed)
 {
   const auto before = number_present(packing.frame);
-  const auto removed = remove_grains_below(packing.grains, packing.frame);
+  const auto removed = remove_grains_below(packing.grains, packing.frame, across);
   EXPECT_EQ(removed, before - number_present(packing.frame));
   std::vector<std::size_t> rows;
   for (std::size_t g = 0; g < packing.grains.size(); ++g)
@@ -69,6 +71,28 @@ TEST(GrainsBelow, TakeTheirContactsWithThem)
   EXPECT_EQ(contacts.force, (std::vector<Vec2>{{0, 3}, {7, 0}}));
   EXPECT_EQ(contacts.branch.size(), 2u);
   EXPECT_EQ(contacts.gap.size(), 2u);
+}
+
+// Grain 1 is of the bed. It is the first or the second of its contacts with a grain that has left.
+TEST(GrainsBelow, PushTheBedFromOutsideAsTheBaseDoes)
+{
+  auto packing = base_and_large<2>();
+  const auto left = packing.grain(Species::small, 0.5, {0, -2.5});
+  const auto also = packing.grain(Species::small, 0.5, {1, -2.5});
+  packing.contact(1, left, {0, 4});
+  packing.contact(also, 1, {1, -5});
+  packing.contact(left, also, {7, 0});
+  packing.contact(also, 0, {0, -8});
+  packing.wall_contact(left, 0, {0, 6}, {0, 0.5});
+  const auto branch = packing.frame.contacts.branch;
+  EXPECT_EQ(remaining(packing, ContactsAcross::kept), Rows{1});
+  const auto& contacts = packing.frame.contacts;
+  EXPECT_EQ(contacts.i, (std::vector<std::int32_t>{1, 1}));
+  EXPECT_EQ(contacts.j, (std::vector<std::int32_t>{left, also}));
+  EXPECT_EQ(contacts.force, (std::vector<Vec2>{{0, 4}, {-1, 5}}));
+  EXPECT_EQ(contacts.branch, (std::vector<Vec2>{branch[0], -branch[1]}));
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    EXPECT_FALSE(partners(packing.grains, packing.frame, k).j);
 }
 
 TEST(GrainsBelow, DoNotLieBetweenTheBeadsOfADeepOrShakenBase)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/micro/force_distribution.hpp"
 
+#include "analysis/micro/structure_sums.hpp"
 #include "tests/analysis/grain_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -100,6 +101,48 @@ TEST(ForceDistribution, TheDensityIntegratesToOneAndWhatIsBeyondLiesInTheOpenBin
   EXPECT_EQ(cell(narrow.back(), "n_SS"), 3);  // 1, 1.3 and 1.5 of a mean of 1
 }
 
+// Forces 1 and 3 on the base in a layer of their own: their mean is 2.
+TEST(ForceDistribution, ContactsWithTheBaseAloneInALayerHaveBinsToo)
+{
+  Packing scene;
+  for (const double force : {1.0, 3.0}) {
+    const auto grain = scene.grain(Species::small, 0.5, {force, 0.5});
+    scene.wall_contact(grain, 0, {0, force}, {0, 0.5});
+  }
+  const auto rows = distribution(scene, ForceUnit::layer).rows(0);
+  EXPECT_EQ(cell(bin(rows, 0.55), "n_Sb"), 1);
+  EXPECT_EQ(cell(bin(rows, 1.55), "n_Sb"), 1);
+}
+
+TEST(ForceDistribution, NoContactIsLostWhereForcesPullMoreThanTheyPush)
+{
+  Packing scene;
+  chain(scene, 1, Species::small, {-3, 1, -2});
+  for (const auto unit : {ForceUnit::layer, ForceUnit::type}) {
+    const auto rows = distribution(scene, unit).rows(0);
+    EXPECT_EQ(cell(rows.front(), "n_SS"), 2);
+    EXPECT_EQ(cell(rows.back(), "n_SS"), 1);
+  }
+}
+
+// The wall touches the lower grain above its top, through a gap, at y = 2.1. The layers are 2 thick.
+TEST(ForceDistribution, AContactAboveAllGrainsOfItsFrameIsInTheLastLayerOfTheFrame)
+{
+  Packing high, low;
+  chain(high, 5, Species::small, {1});
+  const auto grain = low.grain(Species::small, 1, {1, 1});
+  low.wall_contact(grain, 0, {0, -2}, {0, -1.1});
+  StructureByLayer<2> structure(layers, GrainArea::centre, 0.5);
+  MeanNormalForce<2> mean(layers);
+  for (const auto& scene : {high, low}) {
+    structure.add(scene.grains, scene.frame);
+    mean.add(scene.grains, scene.frame);
+  }
+  EXPECT_EQ(structure.mean(0).of(PairType::Sb).contacts, 0.5);
+  EXPECT_EQ(structure.mean(1).of(PairType::Sb).contacts, 0);
+  EXPECT_EQ(mean.of(0, PairType::Sb), 2);
+}
+
 TEST(ForceDistribution, ContactsWithoutForceDoNotCount)
 {
   Packing scene;
@@ -120,7 +163,7 @@ TEST(ForceDistribution, CountsArePerFrameHoweverTheFramesAreMerged)
   more.add(weak.grains, weak.frame);
   mean.merge(more);
   EXPECT_EQ(mean.of(0, PairType::SS), 2);
-  EXPECT_EQ(mean.between_grains(0), 2);
+  EXPECT_EQ(mean.of_layer(0), 2);
   ForceDistribution<2> first(layers, mean, ForceUnit::layer, 0.1), second = first;
   first.add(strong.grains, strong.frame);
   second.add(weak.grains, weak.frame);

@@ -4,6 +4,7 @@
 #include "analysis/segregation/closure.hpp"
 
 #include "analysis/frames/sums.hpp"
+#include "analysis/segregation/prediction.hpp"
 #include "analysis/stress/partition_rule.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/analysis/correlated_windows.hpp"
@@ -345,6 +346,22 @@ TEST(SegregationClosure, RunsWhoseTablesDoNotBelongTogetherAreRefused)
   for (auto& [key, value] : thicker.header)
     if (key == "layer") value = "0.01";
   expect_refusal({a.segregation, thicker}, "differ in 'layer'");
+}
+
+// The driving of the closure is of size alone, but lighter grains also rise by their weight.
+TEST(SegregationClosure, GrainsOfTwoDensitiesAreRefused)
+{
+  auto run = tables_of({}, "a");
+  for (auto* table : {&run.segregation, &run.stress})
+    add_all(table->header,
+            Header{{"mean_density", "1900"}, {"density_S", "1000"}, {"density_L", "2800"}});
+  expect_refusal({run.segregation, run.stress}, "(small 1000, large 2800 kg/m^2)");
+  try {
+    predict(run.segregation, {1, 1, 1, 1}, {});
+    ADD_FAILURE() << "predicted";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("differ in density"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -82,6 +82,21 @@ TEST(SegregationFlux, AKnownFluxIsFound)
   EXPECT_TRUE(std::isnan(pure.value.S));
 }
 
+// The large grain of the same mixture is twice as dense. Areas are 1:1:4 still, so nothing changes.
+TEST(SegregationFlux, TheFluxesOfTwoDensitiesCancelAndAreOfArea)
+{
+  Packing scene = mixture();
+  scene.grains.mass[2] *= 2;
+  const auto flux = seen(scene, 16, [](Packing& s, double) {
+    s.frame.velocity = {{5, 0.1}, {6, 0.1}, {7, 0.4}, {0, 0.2}, {0, 0.2}, {0, 0.2}};
+  });
+  const auto layer = flux.results(scene.grains, 2)[1];
+  EXPECT_NEAR(layer.value.w_large, 0.1, 1e-14);
+  EXPECT_NEAR(layer.value.q_large, 0.2 / 3, 1e-14);
+  EXPECT_NEAR(layer.value.q_small, -0.2 / 3, 1e-14);
+  EXPECT_NEAR(layer.error.q_large, 0, 1e-14);
+}
+
 // A layer that oscillates does not segregate, even if its large grains are present only while it rises.
 TEST(SegregationFlux, TheMotionOfTheLayerAsAWholeDropsOut)
 {

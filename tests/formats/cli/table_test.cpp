@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/table.hpp"
 
+#include "formats/cli/readable_table.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/version.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -221,6 +223,20 @@ TEST(Table, ThatIsTruncatedIsRefusedWithItsLine)
       "t.tsv: is an HDF5 file, not a table; if it is a run, make its table with grseg-stress");
   EXPECT_EQ(complaint("# only: comments\n"),
             "t.tsv: has no line of column names, so it is not a table");
+}
+
+// Too wide for a terminal: columns that most readers look for are shown, after those that tell the rows apart.
+TEST(ShortTable, ShowsWhichBinAndCellEachRowIs)
+{
+  for (const std::string names : {"t0\ty0\tx0\tx1\tn_SS\tn_LS", "t0\tx0\tx1\ty0\tphi_L\tu"}) {
+    std::string text = names;
+    for (int k = 0; k < 20; ++k) text += fmt::format("\tanother_column_{}", k);
+    text += "\n0\t1\t2\t3\t4\t5" + std::string(20, '\t') + "\n";
+    const auto shown = readable_table(text, 4);
+    for (const char* key : {"t0", "x0", "y0"})
+      EXPECT_NE(shown.find(key), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("another"), std::string::npos) << shown;
+  }
 }
 
 }  // namespace
