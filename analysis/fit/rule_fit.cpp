@@ -234,7 +234,7 @@ RuleFit fit_of_b(const FitData& data, double share, const OfShare& numbers,
   fit.over = resolved(settings.over, fit.runs, data.number_of_flows());
   fit.value.B = estimators_from_sums(windows.total()).B;
   set_error(fit, &Estimators::B,
-            Errors(data, windows.weight()).over(fit.over, influence_on(&Estimators::B, windows)));
+            Errors(data, windows).over(fit.over, influence_on(&Estimators::B, windows)));
   fit.neutral = numbers.neutral;
   fit.of_thickness = numbers.of_thickness;
   fit.doubt = doubt_of(fit, data, windows);

@@ -331,7 +331,7 @@ FAULTS = [
      "now[layer].flow.add(mass, y - layers_.bottom(layer), frame.velocity[g]);",
      "now[layer].flow.add(mass > 0 ? 1 : 0, y - layers_.bottom(layer), frame.velocity[g]);"),
     ("flux: of the small grains along that of the large ones", "analysis/segregation/flux.cpp",
-     "r.w_small = ratio(-sums.excess, sums.mass[0]);", "r.w_small = ratio(sums.excess, sums.mass[0]);"),
+     "r.w_small = ratio(-sums.excess, weight[0]);", "r.w_small = ratio(sums.excess, weight[0]);"),
     ("diffusivity: displacement squared over t instead of 2 t", "analysis/segregation/flux.cpp",
      "excess * excess / (2 * (to.time - from.time));", "excess * excess / (to.time - from.time);"),
     ("diffusivity: n grains instead of n - 1 about their drift", "analysis/segregation/flux.cpp",

@@ -74,7 +74,7 @@ FAULTS = [
     ("forces: 0 need not lie between the bounds", "analysis/explore/player_data.cpp", "const Quantisation zero(0, 0);",
      "const Quantisation zero;"),
     ("tables by layer: windows without their frames", "analysis/explore/layer_tables.cpp",
-     "means_[layer][k].sum += frames * values[k];", "means_[layer][k].sum += values[k];"),
+     "means[k].sum += weight * values[k];", "means[k].sum += values[k];"),
     ("tables by layer: mixed contacts by the components across", "analysis/explore/layer_tables.cpp",
      "sums.of(PairSum::whole, pair)(1, 1)", "sums.of(PairSum::whole, pair)(0, 0)"),
 ]
