@@ -164,10 +164,11 @@ class Report {
   {
     summary.numbers.emplace_back(name, Estimate{value});
   }
-  /// Correlation between the errors of two numbers.
+  /// Correlation between the errors of two numbers, from the same waves for both.
   double correlation(const Linear& a, const Linear& b) const
   {
-    const Eigen::VectorXd x = deviation(a).parts, y = deviation(b).parts;
+    const Eigen::VectorXd x = deviation(a).parts,
+                          y = deviation({b.value, b.influence, a.weight, a.taken}).parts;
     return x.size() == 0 ? no_number : x.dot(y) / (x.norm() * y.norm());
   }
   void add_doubt(const Linear& of)
