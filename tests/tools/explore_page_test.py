@@ -657,7 +657,8 @@ def check_means(page, name, columns):
             values, frames = of_layer[:, at[column]], of_layer[:, at["frames"]]
             known = np.isfinite(values)
             if known.any():
-                mean = (values * frames)[known].sum() / (all_frames if column.startswith("push") else frames[known].sum())
+                without = all_frames - frames.sum() if column.startswith("push") else 0
+                mean = (values * frames)[known].sum() / (frames[known].sum() + without)
                 close(own[shown["columns"].index(column)], mean, f"{column} of the layer at {own[0]}")
 
 

@@ -74,7 +74,7 @@ did 'table stress-branch.tsv' 1
 [ "$(tables whole | grep -v rules.tsv)" = "$(tables killed | grep -v rules.tsv)" ] || fail "a table made by another command was not made again"
 campaign -j2 OUT=whole PARTITION=uniform:0.8 KEEP=1 WINDOW=0.5 >log 2>&1
 did 'campaign simulate' 0
-did 'grseg-.*--window 0.5' 17
+did "grseg-.*'--window' '0.5'" 17
 
 code=0
 make -C "$source/scripts/reproduce" run NAME=phi0.45-s23-seed9 BIN="$bin" OUT="$folder/whole" >log 2>&1 || code=$?
