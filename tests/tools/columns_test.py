@@ -81,7 +81,7 @@ def compare_and_close():
     collect("fit", 2, "thick.tsv", "stress0-2.tsv", "--heights", "all")
     collect("segregation", 2, SAMPLE, "--window", "1", file="sample.tsv")
     collect("closure", 2, "sample.tsv", "thick.tsv", "--heights", "all", "--partition", "half", "--profiles", "profiles.tsv",
-            "--predict", "segregation-2.tsv")
+            "--predict", "sample.tsv")
     with open("profiles.tsv", encoding="utf-8") as table:
         note("closure", 2, table.read())
 
