@@ -19,6 +19,7 @@ class Run:
             listed = f["grseg/species"]
             self.names = [name.decode() for name, mobile in zip(listed["name"], listed["mobile"]) if mobile]
             self.species_count = len(self.names)
+            self.nominal = [float(d) for d, mobile in zip(listed["diameter"], listed["mobile"]) if mobile]
             self.radius = grains["radius"][:].astype(float)
             self.mass = grains["mass"][:].astype(float)
             self.species = grains["species"][:].astype(int)
@@ -74,6 +75,9 @@ class Run:
         self.names = [f"c{k + 1}" for k in range(len(edges) + 1)]
         self.species_count = len(self.names)
         self.species = np.where(self.mobile, np.searchsorted(edges, 2 * self.radius, side="right"), len(self.names))
+
+        of = [2 * self.radius[self.mobile & (self.species == s)] for s in range(self.species_count)]
+        self.nominal = [np.sum(d**self.dimension) / np.sum(d**(self.dimension - 1)) if len(d) else 0.0 for d in of]
 
     def volume_of_layer(self, h, n=0):
         if self.axis is not None:

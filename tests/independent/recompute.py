@@ -35,7 +35,7 @@ SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
 RULES = ("size", "contact-point", "half", "drop", f"power:{by_definition.POWER:g}")
 ASSIGNMENTS = ("contact-point", "branch", "grain")
 MEANS = ("profile", "layer", "instant", "instant-unbiased", "profile-unbiased")
-compared = 0
+compared, largest = 0, 0.0  # numbers; largest difference in units of its bound
 
 
 class Difference(Exception):
@@ -45,7 +45,7 @@ class Difference(Exception):
 def compare(what, mine, tools, terms=0.0):
     """True if both numbers agree to TOLERANCE times the largest component, or times the largest of the `terms`
     whose difference they are, or if both are NaN."""
-    global compared
+    global compared, largest
     mine, tools = np.asarray(mine, dtype=float), np.asarray(tools, dtype=float)
     compared += mine.size
     if np.isnan(mine).all() and np.isnan(tools).all():
@@ -54,6 +54,8 @@ def compare(what, mine, tools, terms=0.0):
         raise Difference(f"{what}: the shapes {mine.shape} and {tools.shape} differ")
     scale = max(abs(mine).max(), abs(tools).max(), np.abs(terms).max())
     difference = abs(mine - tools).max()
+    if scale > 0:
+        largest = max(largest, difference / (TOLERANCE * scale))
     if not difference <= TOLERANCE * scale:
         raise Difference(f"{what}: the definition gives\n{mine}\nthe tool gives\n{tools}\n"
                          f"they differ by {difference / scale:.3g}, more than {TOLERANCE:g}")
