@@ -259,8 +259,8 @@ def in_mid_step(run, frames):
             torque[i] += np.cross(arm, force)
         one = dict(f, velocity=f["velocity"].copy(), spin=f["spin"].copy())
         for g in np.flatnonzero(run.mobile & f["present"]):
-            one["velocity"][g] -= f["total_force"][g] / run.mass[g] * run.step / 2
-            one["spin"][g] -= torque[g] / run.inertia(g) * run.step / 2
+            one["velocity"][g] -= f["total_force"][g] / run.mass[g] * f["step"] / 2
+            one["spin"][g] -= torque[g] / run.inertia(g) * f["step"] / 2
         middle.append(one)
     return middle
 

@@ -42,6 +42,8 @@ class Run:
         frame["total_force"] = f["particles/grains/force/value"][k].astype(float)
         spin = f["particles/grains/angular_velocity/value"][k].astype(float)
         frame["spin"] = spin.reshape(len(spin), -1)  # one component about z, or three
+        divided = f.get("observables/frame_step/value")  # length of a divided step, s; 0 if it was not divided
+        frame["step"] = (float(divided[k]) if divided is not None else 0.0) or float(f["parameters/step"][()])
         frame["present"] = ~np.isnan(frame["position"]).any(axis=1)
         return frame
 
