@@ -228,15 +228,20 @@ void PhysicsCheck<D>::add_balances(std::vector<CheckLine>& lines) const
   add(named("energy_defect"), energy_, "", energy_.count > 0 ? nullptr : no_energy_defect);
 }
 
-/// Judges the balance of forces of an import by the balance that the import accepted: programs that
-/// write damped forces late, or with few digits, miss round-off by far.
+/// Judges the balance of forces of an import by what the import accepted, its tolerance or a larger
+/// residual that it explained: programs that write damped forces late, or with few digits, miss
+/// round-off by far.
 template <int D>
 void PhysicsCheck<D>::hold_to_import(CheckLine& line) const
 {
-  const auto accepted = run_.parameters().find_number("import_tolerance");
-  if (!accepted || line.verdict != Verdict::failed || *accepted <= line.tolerance) return;
-  line = judged(line.quantity, line.measured, *accepted,
-                line.remark + "; the tolerance is the one of the import");
+  const auto number = [&](const char* name) {
+    return run_.parameters().find_number(name).value_or(0);
+  };
+  const double accepted =
+      std::max(number("import_tolerance"), number("import_residual_largest") * (1 + 1e-6));
+  if (line.verdict != Verdict::failed || accepted <= line.tolerance) return;
+  line =
+      judged(line.quantity, line.measured, accepted, line.remark + "; the import accepted as much");
 }
 
 template <int D>
@@ -255,7 +260,13 @@ void PhysicsCheck<D>::add_contacts(std::vector<CheckLine>& lines) const
       rules_.restitution ? nullptr : "the file holds no /parameters/restitution";
   add(named("coulomb_largest"), named("coulomb_mean"), contacts_.coulomb, 1,
       rules_.friction ? nullptr : "the file holds no /parameters/friction");
-  add(named("tension_largest"), named("tension_mean"), contacts_.tension, 1);
+  double pull = 0;  // of a frame's normal force, in an import
+  for (const double of_frame : observable_of(run_, "check_pull")) pull = std::fmax(pull, of_frame);
+  const auto damped = fmt::format(
+      "damped contacts may pull: grseg-import accepted {:.2g} of the normal force of a frame",
+      pull);
+  add(named("tension_largest"), named("tension_mean"), contacts_.tension, 1,
+      pull > 0 ? damped.c_str() : nullptr);
   add(named("open_gap_largest"), named("open_gap_mean"), contacts_.open_gap, small_diameter_,
       no_velocities);
   add(named("approach_largest"), named("approach_mean"), contacts_.approach, small_diameter_,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -41,16 +42,22 @@ std::string doubt_of_merged(const std::vector<Table>& tables)
   return "";
 }
 
-/// Warning that a table has horizontal layers of a drum; "" if there is none.
+/// Warning that layers of a table cross a flow and grains at rest; "" if there is none.
 std::string doubt_of_layers(const std::vector<Table>& tables)
 {
+  constexpr std::pair<const char*, const char*> flows[] = {
+      {"drum", "the flowing layer and the bed that turns beneath"},
+      {"hopper", "the flow to the outlet and grains at rest beside it"},
+      {"column", "grains that slide and grains at rest beneath"}};
   for (const auto& table : tables)
-    if (header_or(table, "scene", "").find("geometry = drum;") != std::string::npos &&
-        !plane_of(table) && !has_annuli(table))
-      return fmt::format(
-          "{} has horizontal layers of a drum, which cross its flowing layer and the bed beneath: take "
-          "grseg-stress --bins xy, then --component pressure here",
-          printable(table.name));
+    for (const auto& [geometry, crossed] : flows)
+      if (header_or(table, "scene", "").find(fmt::format("geometry = {};", geometry)) !=
+              std::string::npos &&
+          !plane_of(table) && !has_annuli(table))
+        return fmt::format(
+            "{} has horizontal layers of a {}, which cross {}: take grseg-stress --bins xy, then "
+            "--component pressure here",
+            printable(table.name), geometry, crossed);
   return "";
 }
 

@@ -106,8 +106,10 @@ class Judge {
     if (!(out > 0))
       return say(knows_speed() ? "steady in these times" : "the stress is steady in these times");
     say(fmt::format("steady since t = {:.4g} s", time_after(data_, out)));
-    doubt(fmt::format("the start of the flow differs from the rest; --begin {:.4g} leaves it out",
-                      time_after(data_, out)));
+    doubt(fmt::format(
+        "the start of the flow differs from the rest; --begin {:.4g} leaves it out (take "
+        "this advice once: chance gives another start to one flow in twenty)",
+        time_after(data_, out)));
   }
 
   static bool is_steady(const Series& speed, const RunLengths& runs)
@@ -183,6 +185,7 @@ class Judge {
     const auto b = fit_.estimate(&Estimators::B);
     const double half = (b.high - b.low) / 2, seconds = duration();
     const bool over_runs = fit_.over == Population::runs;
+    if (!over_runs && number_of_windows(data_.runs) < fewest_to_foretell) return;
     if (!(half > 0) || fit_.flow || data_.number_of_flows() > 1 ||
         !(over_runs || fit_.over == Population::windows))
       return;

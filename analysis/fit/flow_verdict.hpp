@@ -28,6 +28,8 @@ inline constexpr double least_inertial_number = 1e-3;
 inline constexpr double steady_within = 0.1;
 /// Half-width of the interval of B to which the needed time or number of runs refers.
 inline constexpr double wanted_half_width = 0.01;
+/// Least number of windows from which the needed time is foretold (as in doubt_of_windows()).
+inline constexpr std::size_t fewest_to_foretell = 12;
 
 /// The verdict on the data that gave `fit`. A start that differs from the rest is sought in the
 /// speed (change_of() and start_of(), by more than `steady_within`; without speeds by seen_start() in

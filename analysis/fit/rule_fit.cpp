@@ -170,7 +170,7 @@ AtShare at_share(const FitData& data, double share, const FitSettings& settings)
 /// line.
 double share_with(double b, double share, const FitData& data, const FitSettings& settings)
 {
-  for (int step = 0; step < 8; ++step) {
+  for (int step = 0; step < 8 && std::isfinite(share); ++step) {
     const auto at = at_share(data, share, settings);
     const double change =
         (at.value.excess().sum() - b * at.value.weight().sum()) / at.derivative.excess().sum();

@@ -53,7 +53,7 @@ print(f"B = 0 where the larger grain of every mixed contact gets p* = {points.fi
 # %% So small and short a run tells little. B of 150 s of the paper's chute, from the table of its sums
 table = pathlib.Path(run.path).with_name("paper-chute.tsv")
 if table.exists():
-    fit = grseg.Points(grseg.read_table(table), begin=22.5).fit()
+    fit = grseg.Points(grseg.read_table(table), begin=80).fit()
     low, high = fit.B_interval
     print(f"{table}: B by size = {fit.B:+.3f} [{low:+.3f}, {high:+.3f}]")
 

@@ -45,9 +45,10 @@ EndOfFlow end_of_flow(const Simulation<D>& simulation, const Scene& scene,
   EndOfFlow end;
   const auto now = motion_of(simulation);
   end.mean_velocity = now.mean_velocity;
-  end.friction = (simulation.world().gravity.x() -
-                  (now.mean_velocity - earlier.mean_velocity) / (now.time - earlier.time)) /
-                 down;
+  end.slope = simulation.world().gravity.x() / down;
+  end.stress_ratio = (simulation.world().gravity.x() -
+                      (now.mean_velocity - earlier.mean_velocity) / (now.time - earlier.time)) /
+                     down;
   end.surface_velocity = momentum_of_surface / of_surface;
   end.solid_fraction = volume / (base_area(scene) * height);
   end.inertial_number = 5 * std::abs(end.mean_velocity) * (diameters / mass) /

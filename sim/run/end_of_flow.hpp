@@ -14,9 +14,9 @@ struct EndOfFlow {
   double mean_velocity = std::numeric_limits<double>::quiet_NaN();  // m/s, along x, by mass
   /// m/s, along x, by mass, of grains less than 2 d_S below the surface of a flat bed (bed_height).
   double surface_velocity = mean_velocity;
-  /// Friction of base and walls over the pressure on the base, since an earlier time, by the balance of
-  /// momentum: tan(slope) minus the acceleration over g cos(slope).
-  double friction = mean_velocity;
+  /// Shear stress on base and walls over the pressure on the base, since an earlier time, by the balance
+  /// of momentum: tan(slope) minus the acceleration over g cos(slope); and tan(slope).
+  double stress_ratio = mean_velocity, slope = mean_velocity;
   double solid_fraction = mean_velocity;  // volume (area) of grains over the volume of a flat bed
   /// Inertial number of a steady chute with this mean velocity U: 5 U d/(2 H sqrt(nu g cos(theta) H)),
   /// d: mean diameter by mass, H: height, nu: solid fraction (Jop, Forterre & Pouliquen, Nature 441,
@@ -26,6 +26,8 @@ struct EndOfFlow {
   /// True below the inertial number 1e-3, where flows are quasi-static (GDR MiDi, Eur. Phys. J. E 14,
   /// 341, 2004).
   bool is_jammed() const { return inertial_number < 1e-3; }
+  /// True if less than 95 % of gravity along the slope is balanced. The bound is a convention.
+  bool accelerates() const { return stress_ratio < 0.95 * slope; }
 };
 
 /// MeanMotion of the bed at one time.

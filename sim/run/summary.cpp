@@ -133,16 +133,22 @@ std::string height_in_words(double height, const Scene& scene)
 std::string motion_in_words(const EndOfFlow& end)
 {
   if (std::isnan(end.inertial_number)) return {};
-  auto text = line("motion",
-                   fmt::format("{:.2g} m/s on average, {:.2g} m/s at the surface; inertial number "
-                               "{:.2g}, friction {:.3f} in the last second, solid fraction {:.2f}",
-                               end.mean_velocity, end.surface_velocity, end.inertial_number,
-                               end.friction, end.solid_fraction));
+  auto text = line(
+      "motion", fmt::format("{:.2g} m/s on average, {:.2g} m/s at the surface; inertial number "
+                            "{:.2g}, stress ratio {:.3f} in the last second, solid fraction {:.2f}",
+                            end.mean_velocity, end.surface_velocity, end.inertial_number,
+                            end.stress_ratio, end.solid_fraction));
   if (end.is_jammed())
     text +=
         line("remark",
              "the bed is at rest or creeps (inertial number below 1e-3): B would be of a jammed "
              "bed, not of a flow; choose a steeper --slope or a longer --duration");
+  else if (end.accelerates())
+    text +=
+        line("remark",
+             fmt::format("the flow accelerates: a stress ratio of {:.3f} would balance gravity; "
+                         "choose a longer --duration or, if it is too steep, another --slope",
+                         end.slope));
   return text;
 }
 
@@ -269,7 +275,7 @@ Parameters to_parameters(const RunSummary& s)
   n["summary_mean_velocity"] = {s.end_of_flow.mean_velocity};
   n["summary_surface_velocity"] = {s.end_of_flow.surface_velocity};
   n["summary_inertial_number"] = {s.end_of_flow.inertial_number};
-  n["summary_friction"] = {s.end_of_flow.friction};
+  n["summary_stress_ratio"] = {s.end_of_flow.stress_ratio};
   n["summary_solid_fraction"] = {s.end_of_flow.solid_fraction};
   n["summary_stiffness"] = {s.stiffness.stiffness};
   n["summary_rigidity"] = {s.stiffness.rigidity};
@@ -308,9 +314,9 @@ std::string next_steps(const std::string& output, const Scene& scene)
 {
   const auto run = shell_word(output);
   const bool is_drum = scene.geometry == &drum_geometry;
-  return line("next",
-              fmt::format("grseg-stress {}{} -o stress.tsv, then grseg-fit stress.tsv{}", run,
-                          is_drum ? " --bins xy" : "", is_drum ? " --component pressure" : "")) +
+  return line("next", fmt::format("grseg-stress {}{} -o stress.tsv, then grseg-fit stress.tsv{}",
+                                  run, is_drum ? " --bins xy --layer 2dS" : "",
+                                  is_drum ? " --component pressure" : "")) +
          line("look", fmt::format("grseg-explore {} -o explore.html", run));
 }
 

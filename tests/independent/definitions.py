@@ -18,8 +18,9 @@ def layer_of(y, h):
 
 def layers_of(run, frames, h):
     """Number of layers up to the top of the highest grain."""
-    top = max((f["position"][:, 1] + run.radius)[run.mobile & f["present"]].max() for f in frames)
-    return math.ceil(top / h)
+    top = max((run.height(f["position"][g]) + run.radius[g]
+               for f in frames for g in np.flatnonzero(run.mobile & f["present"])), default=0)
+    return max(1, math.ceil(top / h))
 
 
 def by_layer(layers, *shape):
@@ -36,16 +37,24 @@ def shares_of_layers(low, high, h, layers):
     return {first + k: (edges[k + 1] - edges[k]) / (high - low) for k in range(last - first + 1)}
 
 
-def contacts_of(run, frame):
-    """Contacts with a force, with the quantities that the definitions need."""
+def contacts_of(run, frame, across=False):
+    """Contacts with a force, with the quantities that the definitions need. A contact with a grain that has left the
+    bed is only included if `across`: the grain counts as part of the base then."""
     for force, branch, gap, i, j in zip(*(frame[name] for name in ("force", "branch", "gap", "i", "j"))):
         if not force.any():
             continue
         r_i, r_j = run.radius[i], run.radius[j] if j >= 0 else 0.0
         part_i = 1.0 if j < 0 else (r_i + gap / 2) / (r_i + r_j + gap)  # share of i by the contact point
-        y_i = frame["position"][i][1]
-        yield {"i": i, "j": j, "force": force, "whole": np.outer(force, branch), "part_i": part_i,
-               "y_i": y_i, "y_j": y_i - branch[1], "y_contact": y_i - part_i * branch[1]}
+        x_i = frame["position"][i]
+        x_j, touch = x_i - branch, x_i - part_i * branch
+        left_i, left_j = (g >= 0 and not frame["present"][g] for g in (i, j))
+        if (left_i or left_j) and not (across and run.is_mobile(j if left_i else i) and left_i != left_j):
+            continue
+        if left_i:
+            i, j, x_i, x_j, force, branch, part_i = j, i, x_j, x_i, -force, -branch, 1 - part_i
+        whole = np.outer(run.turned(force, touch), run.turned(branch, touch))
+        yield {"i": i, "j": -1 if left_i or left_j else j, "force": force, "whole": whole, "part_i": part_i,
+               "y_i": run.height(x_i), "y_j": run.height(x_j), "y_contact": run.height(touch)}
 
 
 def pieces(run, c, assignment):
@@ -90,16 +99,17 @@ def contact_sums(run, frames, h, layers, assignment):
     """Sums of force (x) branch, N m, and numbers of contacts, by layer of the contact point."""
     sums, numbers = by_layer(layers, run.dimension, run.dimension), by_layer(layers)
     for f in frames:
+        count = layers_of(run, [f], h)
         for c in contacts_of(run, f):
-            here = min(layer_of(c["y_contact"], h), layers - 1)
+            here = min(layer_of(c["y_contact"], h), count - 1)
             ends = sorted(run.species[g] for g in (c["i"], c["j"]) if run.is_mobile(g))
             numbers[tuple(ends)][here] += 1 / len(frames)
             for key, start, end, weight in pieces(run, c, assignment):
                 shares = {here: 1.0}
                 if assignment == "branch":
-                    shares = shares_of_layers(start, end, h, layers)
+                    shares = shares_of_layers(start, end, h, count)
                 elif assignment == "grain":
-                    shares = {min(layer_of(start, h), layers - 1): 1.0}
+                    shares = {min(layer_of(start, h), count - 1): 1.0}
                 for n, share in shares.items():
                     sums[key][n] += weight * share * c["whole"] / len(frames)
     return sums, numbers
@@ -121,17 +131,20 @@ def partial_stresses(run, sums, h, share_of_larger):
     return stresses
 
 
-def volumes(run, frames, h, layers):
-    """Area or volume of the mobile grains of each species, clipped at the edges of layers."""
+def volumes(run, frames, h, layers, composition="clipped", of=lambda motion: 1.0):
+    """Area or volume of the mobile grains of each species, times of(motion): clipped at the edges of layers, or whole in
+    the layer of the centre."""
     content = np.zeros((run.species_count, layers))
-    for f in frames:
-        for g in np.flatnonzero(run.mobile & f["present"]):
-            y = f["position"][g][1]
-            below = 0.0
-            for n in range(layers):
-                here = run.volume_of_grain(g) if n == layers - 1 else run.volume_below(g, (n + 1) * h - y)
-                content[run.species[g], n] += (here - below) / len(frames)
-                below = here
+    for g, y, motion in mobile_grains(run, frames):
+        s, weight = run.species[g], of(motion) / len(frames)
+        if composition == "centre":
+            content[s, layer_of(y, h)] += run.volume_of_grain(g) * weight
+            continue
+        below = 0.0
+        for n in range(layers):
+            here = run.volume_of_grain(g) if n == layers - 1 else run.volume_below(g, y, (n + 1) * h)
+            content[s, n] += (here - below) * weight
+            below = here
     return content
 
 
@@ -164,7 +177,7 @@ def forces_by_rule(run, frames, h, layers, rule, width):
             parts[:count] = parts_of_kernel(y, h, count, width)
             return np.outer(parts, force) / len(frames)
 
-        for c in contacts_of(run, f):
+        for c in contacts_of(run, f, across=True):
             mobile = run.is_mobile(c["j"])
             mixed = mobile and run.species[c["i"]] != run.species[c["j"]]
             ends = [(c["i"], c["y_i"], c["force"])]
@@ -192,7 +205,8 @@ def mobile_grains(run, frames):
     """Number of the grain, its height, and its velocity and spin as one vector."""
     for f in frames:
         for g in np.flatnonzero(run.mobile & f["present"]):
-            yield g, f["position"][g][1], np.append(f["velocity"][g], f["spin"][g])
+            x = f["position"][g]
+            yield g, run.height(x), np.append(run.turned(f["velocity"][g], x), run.turned(f["spin"][g], x))
 
 
 def mean_in_bins(run, frames, bin_height):
@@ -245,8 +259,8 @@ def in_mid_step(run, frames):
             torque[i] += np.cross(arm, force)
         one = dict(f, velocity=f["velocity"].copy(), spin=f["spin"].copy())
         for g in np.flatnonzero(run.mobile & f["present"]):
-            one["velocity"][g] -= f["total_force"][g] / run.mass[g] * run.step / 2
-            one["spin"][g] -= torque[g] / run.inertia(g) * run.step / 2
+            one["velocity"][g] -= f["total_force"][g] / run.mass[g] * f["step"] / 2
+            one["spin"][g] -= torque[g] / run.inertia(g) * f["step"] / 2
         middle.append(one)
     return middle
 
@@ -367,11 +381,12 @@ def coordination_and_force(run, frames, h, layers):
     for f in frames:
         for g, y, _ in mobile_grains(run, [f]):
             grains[run.species[g], layer_of(y, h)] += 1
+        count = layers_of(run, [f], h)
         for c in contacts_of(run, f):
             on = [g for g in (c["i"], c["j"]) if run.is_mobile(g)]
             for g in on:
                 ends[run.species[g], layer_of(f["position"][g][1], h)] += 1
-            here = min(layer_of(c["y_contact"], h), layers - 1)
+            here = min(layer_of(c["y_contact"], h), count - 1)
             for species in {run.species[g] for g in on}:
                 contacts[species, here] += 1
                 forces[species, here] += np.linalg.norm(c["force"])

@@ -19,6 +19,7 @@ class Run:
             listed = f["grseg/species"]
             self.names = [name.decode() for name, mobile in zip(listed["name"], listed["mobile"]) if mobile]
             self.species_count = len(self.names)
+            self.nominal = [float(d) for d, mobile in zip(listed["diameter"], listed["mobile"]) if mobile]
             self.radius = grains["radius"][:].astype(float)
             self.mass = grains["mass"][:].astype(float)
             self.species = grains["species"][:].astype(int)
@@ -27,7 +28,7 @@ class Run:
             self.interval = float(f["parameters/frame_interval"][()])
             self.step = float(f["parameters/step"][()])
             offset = f["grseg/contacts/offset"][:]
-            self.begin = int(grains["position/step"][frames.start]) * float(f["parameters/step"][()])
+            self.begin = int(grains["position/step"][frames[0]]) * float(f["parameters/step"][()])
             self.frames = [self.read_frame(f, k, slice(int(offset[k]), int(offset[k + 1])))
                            for k in frames]
 
@@ -41,25 +42,68 @@ class Run:
         frame["total_force"] = f["particles/grains/force/value"][k].astype(float)
         spin = f["particles/grains/angular_velocity/value"][k].astype(float)
         frame["spin"] = spin.reshape(len(spin), -1)  # one component about z, or three
+        divided = f.get("observables/frame_step/value")  # length of a divided step, s; 0 if it was not divided
+        frame["step"] = (float(divided[k]) if divided is not None else 0.0) or float(f["parameters/step"][()])
         frame["present"] = ~np.isnan(frame["position"]).any(axis=1)
         return frame
+
+    axis = None  # x and y of the axis of annuli, m; None: layers
 
     def is_mobile(self, g):
         return g >= 0 and self.mobile[g]
 
-    def volume_of_layer(self, h):
+    def height(self, x):
+        """Height of a place, or its distance from the axis."""
+        return x[1] if self.axis is None else math.hypot(*(x[:2] - self.axis))
+
+    def turned(self, vector, x):
+        """Components along (clockwise about the axis) and across the layer at a place."""
+        if self.axis is None or len(vector) == 1:
+            return vector
+        arm = x[:2] - self.axis
+        out = arm / math.hypot(*arm)
+        return np.concatenate(([out[1] * vector[0] - out[0] * vector[1], out @ vector[:2]], vector[2:]))
+
+    def remove_grains_below(self):
+        """Makes those grains absent that have left the bed: their centres lie more than the largest diameter below
+        y = 0, and below all boundary grains."""
+        for frame in self.frames:
+            y = frame["position"][:, 1]
+            lowest = min(np.min(y[~self.mobile], initial=0), -2 * self.radius[self.mobile].max())
+            frame["present"] &= ~(self.mobile & (y < lowest))
+
+    def divide_by_size(self, edges):
+        """Species c1, c2, ... between these diameters."""
+        self.names = [f"c{k + 1}" for k in range(len(edges) + 1)]
+        self.species_count = len(self.names)
+        self.species = np.where(self.mobile, np.searchsorted(edges, 2 * self.radius, side="right"), len(self.names))
+
+        of = [2 * self.radius[self.mobile & (self.species == s)] for s in range(self.species_count)]
+        self.nominal = [np.sum(d**self.dimension) / np.sum(d**(self.dimension - 1)) if len(d) else 0.0 for d in of]
+
+    def volume_of_layer(self, h, n=0):
+        if self.axis is not None:
+            return math.pi * h**2 * (2 * n + 1) * self.width
         return self.length * self.width * h
 
     def volume_of_grain(self, g):
         r = self.radius[g]
         return math.pi * r**2 if self.dimension == 2 else 4 / 3 * math.pi * r**3
 
-    def volume_below(self, g, height):
-        """Part of a grain below a level `height` above its centre: area of a segment or volume of a cap."""
+    def volume_below(self, g, height, edge):
+        """Part of a grain at this height that lies below an edge: area of a segment, volume of a cap, or area that a
+        disc about the axis shares with the grain."""
         r = self.radius[g]
-        y = min(max(height, -r), r)
+        if self.axis is not None:
+            if not abs(r - edge) < height < r + edge:
+                return 0.0 if height >= r + edge else math.pi * min(r, edge)**2
+            to_chord = (height**2 + edge**2 - r**2) / (2 * height)  # from the axis
+            return sum(a**2 * math.acos(c / a) - c * math.sqrt(a**2 - c**2)
+                       for a, c in ((edge, to_chord), (r, height - to_chord)))
+        y = min(max(edge - height, -r), r)
         if self.dimension == 2:
-            return r**2 * math.acos(-y / r) + y * math.sqrt(r**2 - y**2)
+            half = math.sqrt((r - y) * (r + y))  # of the chord
+            return r**2 * math.atan2(half, -y) + y * half
         return math.pi * (r + y)**2 * (2 * r - y) / 3
 
     def inertia(self, g):

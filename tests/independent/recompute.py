@@ -13,6 +13,7 @@ Every number must agree to 1e-10 of the largest
 component of its tensor. Then faults are put into the data read here (raw_run.py); each of them must
 cause a difference.
 """
+import collections
 import itertools
 import math
 import os
@@ -34,7 +35,7 @@ SYNTHETIC = ((2, "small,large"), (2, "fine,middle,coarse"), (3, "small,large"),
 RULES = ("size", "contact-point", "half", "drop", f"power:{by_definition.POWER:g}")
 ASSIGNMENTS = ("contact-point", "branch", "grain")
 MEANS = ("profile", "layer", "instant", "instant-unbiased", "profile-unbiased")
-compared = 0
+compared, largest = 0, 0.0  # numbers; largest difference in units of its bound
 
 
 class Difference(Exception):
@@ -44,7 +45,7 @@ class Difference(Exception):
 def compare(what, mine, tools, terms=0.0):
     """True if both numbers agree to TOLERANCE times the largest component, or times the largest of the `terms`
     whose difference they are, or if both are NaN."""
-    global compared
+    global compared, largest
     mine, tools = np.asarray(mine, dtype=float), np.asarray(tools, dtype=float)
     compared += mine.size
     if np.isnan(mine).all() and np.isnan(tools).all():
@@ -53,6 +54,8 @@ def compare(what, mine, tools, terms=0.0):
         raise Difference(f"{what}: the shapes {mine.shape} and {tools.shape} differ")
     scale = max(abs(mine).max(), abs(tools).max(), np.abs(terms).max())
     difference = abs(mine - tools).max()
+    if scale > 0:
+        largest = max(largest, difference / (TOLERANCE * scale))
     if not difference <= TOLERANCE * scale:
         raise Difference(f"{what}: the definition gives\n{mine}\nthe tool gives\n{tools}\n"
                          f"they differ by {difference / scale:.3g}, more than {TOLERANCE:g}")
@@ -63,9 +66,11 @@ def quotient(a, b):
 
 
 class Window:
-    """Some frames of a run, divided into layers of thickness h."""
+    """Some frames of a run, divided into layers or annuli of thickness h. `sizes`: for each tool, the sum of the
+    magnitudes of all terms that it adds; by default, results are compared relative to their own size."""
 
-    def __init__(self, run, frames, h, where):
+    def __init__(self, run, frames, h, where, composition="clipped", sizes=None):
+        self.composition, self.sizes = composition, sizes or collections.defaultdict(float)
         self.run, self.frames, self.h, self.where = run, frames, h, where
         self.layers = by_definition.layers_of(run, frames, h)
         self.columns = Columns(run)
@@ -85,21 +90,26 @@ class Window:
         run, columns = self.run, self.columns
         self.require_rows(rows, self.layers)
         sums, numbers = self.definition(by_definition.contact_sums, assignment)
-        content = self.definition(by_definition.volumes)
+        content = self.definition(by_definition.volumes, self.composition)
+        moved = [(f"{columns.content}_{name}", self.definition(by_definition.volumes, self.composition, of).sum(axis=0))
+                 for name, of in (("u", lambda v: v[0]), ("v2", lambda v: v[:run.dimension] @ v[:run.dimension]))]
         for n, row in enumerate(rows):
             where = f"{self.place(n)}, {assignment}"
-            compare(f"{where}: V", run.volume_of_layer(self.h), row["V"])
+            compare(f"{where}: V", run.volume_of_layer(self.h, n), row["V"])
+            for name, mine in moved:
+                compare(f"{where}: {name}", mine[n], row[name], row["V"] * self.sizes[name.split("_")[1]])
             for s in range(run.species_count):
                 name = f"{columns.content}_{columns.names[s]}"
                 compare(f"{where}: {name}", content[s][n], row[name], row["V"])
             for key in keys(run, assignment):
                 name = columns.sum(key)
-                compare(f"{where}: {name}", sums[key][n], columns.tensor(row, name))
-            for ends, number in numbers.items():
-                # Contacts with a single species: with the base.
-                name = columns.with_base(ends[0]) if len(ends) == 1 else columns.pair(*ends)
-                compare(f"{where}: n_{name}", number[n], row[f"n_{name}"])
-        if assignment != "grain":
+                compare(f"{where}: {name}", sums[key][n], columns.tensor(row, name), self.sizes["stress"])
+            for count in (1, 2):
+                for ends in itertools.combinations_with_replacement(range(run.species_count), count):
+                    # Contacts with a single species: with the base.
+                    name = columns.with_base(ends[0]) if len(ends) == 1 else columns.pair(*ends)
+                    compare(f"{where}: n_{name}", numbers[ends][n], row[f"n_{name}"])
+        if assignment != "grain" and run.axis is None:
             self.check_stresses(rows, sums)
 
     def check_stresses(self, rows, sums):
@@ -110,7 +120,8 @@ class Window:
             for n, row in enumerate(rows):
                 of_tool = {key: columns.tensor(row, columns.sum(key)) for key in keys(run, "")}
                 tools = by_definition.partial_stresses(run, of_tool, self.h, rule)
-                terms = np.array(list(of_tool.values())) / run.volume_of_layer(self.h)
+                terms = max(abs(sum).max() for sum in of_tool.values()) + self.sizes["stress"]
+                terms /= run.volume_of_layer(self.h)
                 for s, name in enumerate(columns.names):
                     compare(f"{self.place(n)}: sigma^{name} by {rule}", mine[s][n], tools[s], terms)
                 compare(f"{self.place(n)}: sigma", sum(mine)[n], sum(tools), terms)
@@ -141,9 +152,9 @@ class Window:
             for s, name in enumerate(columns.names):
                 where = f"{self.place(n)}, about the {mean}, {velocity}"
                 compare(f"{where}: K_{name}", kinetic[s][n], columns.tensor(row, f"K_{name}"),
-                        1e-12 * of_rest[s][n])
+                        np.append(1e-12 * of_rest[s][n], self.sizes["kinetic"]))
                 compare(f"{where}: Kr_{name}", rotational[s][n], row[f"Kr_{name}"],
-                        1e-12 * of_no_spin[s][n])
+                        np.append(1e-12 * of_no_spin[s][n], self.sizes["spin"]))
                 for column, mine in zip(("mass", "left_out"), more):
                     compare(f"{where}: {column}_{name}", mine[s][n], row[f"{column}_{name}"])
 
@@ -160,15 +171,15 @@ class Window:
                         quotient(sum(row[f"sum_f_{p}"] for p in pairs),
                                  sum(row[f"n_{p}"] for p in pairs)))
 
-    def check_balance(self, rows):
+    def check_balance(self, rows, rules=RULES):
         run, columns = self.run, self.columns
         self.require_rows(rows, self.layers)
         volume = run.volume_of_layer(self.h)
-        for rule in RULES:
+        for rule in rules:
             of_rule = self.definition(by_definition.forces_by_rule, rule, run.small_diameter)
             names = (f"contact_{{}}_{{}}@{rule}", f"interaction_{{}}_{{}}@{rule}", "N_{}_{}")
             for n, row in enumerate(rows):
-                terms = max(abs(of_all[:, n]).max() for of_all in of_rule) / volume
+                terms = max(self.sizes["balance"], *(abs(of_all[:, n]).max() for of_all in of_rule)) / volume
                 for name, of_all in zip(names, of_rule):
                     for s, species in enumerate(columns.names):
                         tools = [row[name.format(species, axis)] for axis in columns.axes]
@@ -267,4 +278,5 @@ def main():
     print(f"{compared} numbers agree to {TOLERANCE:g}, and {faults} faults show")
 
 
-main()
+if __name__ == "__main__":
+    main()

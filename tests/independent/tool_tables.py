@@ -10,8 +10,12 @@ import numpy as np
 @functools.lru_cache(maxsize=None)
 def table(tool, path, options):
     """Rows of a tool's table as dictionaries, by window."""
-    text = subprocess.run([tool, path, "--quiet", *options], check=True, capture_output=True,
-                          text=True).stdout
+    return rows_of(subprocess.run([tool, path, "--quiet", *options], check=True, capture_output=True,
+                                  text=True).stdout, tool)
+
+
+def rows_of(text, tool):
+    """Rows of a table, by window."""
     end = text.splitlines()[-1]
     lines = [line.split("\t") for line in text.splitlines() if not line.startswith("# ")]
     if not end.startswith(f"# end: {len(lines) - 1} rows, xxh3 "):
@@ -29,7 +33,7 @@ class Columns:
 
     def __init__(self, run):
         self.axes = "xyz"[:run.dimension]
-        self.two = run.names == ["small", "large"]
+        self.two = len(run.names) == 2
         self.names = ["S", "L"] if self.two else run.names
         self.content = "area" if run.dimension == 2 else "volume"
 

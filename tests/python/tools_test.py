@@ -358,15 +358,19 @@ def check_verdict(table):
     with mock.patch.dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}"):
         sentences, doubts = grseg.verdict(table, "--begin", 3)
         try:
-            require(grseg.verdict("absent.tsv") is None, "grseg.verdict reads a file that does not exist")
+            grseg.verdict("absent.tsv")
+            raise Difference("grseg.verdict reads a file that does not exist")
         except grseg.Error as error:
-            require("absent.tsv" in str(error), f"grseg.verdict: {error}")
+            if "absent.tsv" not in str(error):
+                raise Difference(f"grseg.verdict: {error}") from error
     run_tool("fit", table, "--begin", 3, "-o", "verdict.tsv")
     with open("verdict.tsv") as file:
         lines = [line.partition(": ")[::2] for line in file.read().splitlines() if line.startswith("# ")]
     for key, own in (("# verdict", sentences), ("# doubt", doubts)):
-        require([text for name, text in lines if name == key] == own, f"grseg.verdict: not the lines '{key}' of {table}")
-    require(sentences[0].startswith("flows: "), sentences[0])
+        if [text for name, text in lines if name == key] != own:
+            raise Difference(f"grseg.verdict: {own} are not the lines '{key}' of {table}")
+    if not sentences[0].startswith("flows: "):
+        raise Difference(f"grseg.verdict: {sentences}")
 
 
 def check_runs():

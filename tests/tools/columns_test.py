@@ -80,8 +80,12 @@ def compare_and_close():
     collect("fit", 2, "thick.tsv", "--minus", "thin.tsv", "--heights", "all")
     collect("fit", 2, "thick.tsv", "stress0-2.tsv", "--heights", "all")
     collect("segregation", 2, SAMPLE, "--window", "1", file="sample.tsv")
+    # A closure holds for one density, and a prediction is of another run.
+    call("sim", f"{SOURCE}/sim/scenes/chute.ini", "--length", "8dL", "--depth", "16dS", "--duration", "2", "--accuracy", "draft",
+         "--quiet", "-o", "light.h5")
+    collect("segregation", 2, "light.h5", "--window", "0.5", file="light.tsv")
     collect("closure", 2, "sample.tsv", "thick.tsv", "--heights", "all", "--partition", "half", "--profiles", "profiles.tsv",
-            "--predict", "segregation-2.tsv")
+            "--predict", "light.tsv")
     with open("profiles.tsv", encoding="utf-8") as table:
         note("closure", 2, table.read())
 

@@ -24,6 +24,9 @@ in_parts() {
 spheres="--format lammps --grains $source/data/sample/spheres/atoms.dump.gz
   --contacts $source/data/sample/spheres/contacts.dump.gz --units 1:1:1 --step 8.8e-4 --gravity 1 --slope 26
   --axes xz --boundary 1 --small 2 --large 3"
+# The balance that an import accepted is no fault of its run.
+$bin/grseg-import $spheres --quiet --overwrite -o run.h5
+$bin/grseg-check run.h5 --physics --quiet >check.tsv 2>&1 || fail "the run of an accepted import: $(grep failed check.tsv)"
 in_parts 3 $spheres
 in_parts 13 $spheres --compression 4 # more parts than frames
 in_parts 2 $spheres --float32 --begin step:140000

@@ -127,6 +127,18 @@ TEST(FlowVerdict, DoesNotSayHowLongABedThatRestsShouldLast)
   EXPECT_FALSE(holds(text_of(verdict_on({flowing(constant(3e-3))})), "needs"));
 }
 
+TEST(FlowVerdict, ForetellsTheNeededTimeFromTwelveWindowsOn)
+{
+  auto table = flowing(constant(3));
+  const auto foretells = [&](std::size_t windows) {
+    table.rows.resize(windows * compositions.size());
+    const auto text = text_of(verdict_on({table}));
+    return holds(text, "B +- 0.01 needs") || holds(text, "B is known to");
+  };
+  EXPECT_TRUE(foretells(12));
+  EXPECT_FALSE(foretells(11));
+}
+
 TEST(FlowVerdict, SaysThatBFallsAndNeedsRunsRatherThanTime)
 {
   const auto verdict =

@@ -73,7 +73,7 @@ TEST(Summary, TellsHowTheBedMovesAtTheEnd)
               5 * 0.1 * of_diameter / mass, 1e-12);
   // From 0.04 to 0.1 m/s in 2 s: 0.03 m/s^2 that friction did not balance.
   const double slope = scene.slope * std::numbers::pi / 180;
-  EXPECT_NEAR(end.friction, std::tan(slope) - 0.03 / weight, 1e-12);
+  EXPECT_NEAR(end.stress_ratio, std::tan(slope) - 0.03 / weight, 1e-12);
   EXPECT_FALSE(end.is_jammed());
 }
 
@@ -97,13 +97,28 @@ TEST(Summary, SaysThatABedAtRestIsJammedUnlessItIsShaken)
       "creeps"));
 }
 
+// A bed that gains 1 m/s in a second is balanced to less than 95 %.
+TEST(Summary, SaysThatAFlowAccelerates)
+{
+  const auto scene = small_chute::scene();
+  auto simulation = release(deposit<2>(scene), scene);
+  const auto& fixed = simulation.world().grains.fixed;
+  for (std::size_t g = 0; g < fixed.size(); ++g)
+    if (!fixed[g]) simulation.set_velocity(g, {2, 0});
+  RunSummary summary;
+  summary.end_of_flow = end_of_flow(simulation, scene, {simulation.time() - 1, 1});
+  EXPECT_TRUE(says(to_text(summary, scene, {}), "remark     the flow accelerates: "));
+  summary.end_of_flow = end_of_flow(simulation, scene, {simulation.time() - 1, 1.9});
+  EXPECT_FALSE(says(to_text(summary, scene, {}), "accelerates"));
+}
+
 TEST(Summary, ProposesLayersForABedAndCellsForADrum)
 {
   EXPECT_TRUE(says(next_steps("run.h5", small_chute::scene()),
                    "grseg-stress run.h5 -o stress.tsv, then grseg-fit stress.tsv\n"));
   EXPECT_TRUE(says(
       next_steps("run.h5", small_chute::paper_scene({"--geometry", "drum", "--lateral", "walls"})),
-      "grseg-stress run.h5 --bins xy -o stress.tsv, then grseg-fit stress.tsv "
+      "grseg-stress run.h5 --bins xy --layer 2dS -o stress.tsv, then grseg-fit stress.tsv "
       "--component pressure"));
 }
 
