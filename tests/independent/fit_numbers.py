@@ -50,6 +50,8 @@ class Points:
         if not self.radial:
             return first + margin, first + sum(s / self.median * (y1 - y0) for y0, y1, s in layers) - margin
         full = [k for k, (_, _, solid) in enumerate(layers) if solid > 0]
+        if not full:
+            return math.inf, -math.inf
         y0, y1, solid = layers[full[-1]]
         part = min(1.0, solid / layers[full[-1] - 1][2]) if full[-1] > 0 and layers[full[-1] - 1][2] > 0 else 1.0
         return (first + margin if first > 0 else 0.0), y0 + part * (y1 - y0) - margin
