@@ -127,7 +127,7 @@ def of_fits(name):
 
 
 def outdated(options):
-    """Prints the names of outdated tables and pages of the run in this folder: those that COMMAND has not made. Pages and
+    """Prints the names of outdated tables and pages of the run in this folder. COMMAND did not make them. Pages and
     summaries, which have options of the fits, are not outdated once the trajectory is deleted, except with AGAIN.
 
     If the run is finished and its trajectory deleted, missing or outdated tables require another simulation. Then it prints

@@ -96,7 +96,7 @@ TEST(MergeTables, ALayerThatOneRunDoesNotReachIsEmptyThere)
   EXPECT_DOUBLE_EQ(cell(t, 1, "area_S"), 0.75 * 0.8);
 }
 
-// Of runs that differ in composition, or in a key of their scenes such as the start of the bed.
+// The runs differ in composition, or in a key of their scenes such as the start of the bed.
 TEST(MergeTables, TablesOfDifferentFlowsAreRefused)
 {
   const auto with_scene = [](const std::string& input, const std::string& scene) {

@@ -225,7 +225,7 @@ TEST(Table, ThatIsTruncatedIsRefusedWithItsLine)
             "t.tsv: has no line of column names, so it is not a table");
 }
 
-// Too wide for a terminal: columns that most readers look for are shown, after those that tell the rows apart.
+// A terminal is too narrow for all columns. It shows the columns that tell rows apart, then the usual ones.
 TEST(ShortTable, ShowsWhichBinAndCellEachRowIs)
 {
   for (const std::string names : {"t0\ty0\tx0\tx1\tn_SS\tn_LS", "t0\tx0\tx1\ty0\tphi_L\tu"}) {
