@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <iostream>
@@ -83,11 +84,19 @@ Header header_of(const TrajectoryReader& run, const Settings& s, const std::stri
   return header;
 }
 
+/// The usual window, or the time between frames where that is longer, in s.
+double default_window(const RunTimes& times)
+{
+  return std::max(WindowSettings{}.length,
+                  static_cast<double>(longest_interval(times)) * times.step);
+}
+
 void check(Settings& s, const po::variables_map& values, const std::string& command)
 {
   s.output.check(values);
   const TrajectoryReader run(single_input(values, "check one at a time"), Verify::no);
   ChecksAsked asked{.deep = s.deep, .physics = {}};
+  if (values["window"].defaulted()) s.physics.windows.length = default_window(times_of(run));
   if (s.with_physics) asked.physics = s.physics;
   ProgressBar progress(name, {.things = "frames", .total = static_cast<double>(run.size())},
                        s.quiet);
