@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -178,6 +179,18 @@ std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& specie
   return all_pairs(species.size());
 }
 
+/// Moves the pairs that have no points in `data` from `pairs` to the result.
+std::vector<SpeciesPair> take_pairs_without_points(std::vector<SpeciesPair>& pairs,
+                                                   const FitData& data)
+{
+  const auto fitted = std::ranges::stable_partition(pairs, [&](const SpeciesPair& pair) {
+    return std::ranges::find(data.samples, pair, &LayerSample::pair) != data.samples.end();
+  });
+  std::vector<SpeciesPair> without(fitted.begin(), fitted.end());
+  pairs.erase(fitted.begin(), fitted.end());
+  return without;
+}
+
 /// Throws UsageError if the runs and flows of the tables do not allow the population of --over.
 void require_population(const FitOptions& s, const FitData& data)
 {
@@ -269,8 +282,12 @@ FitReport make_report(const ToolInfo& info, const FitOptions& s, const std::stri
   for (const auto& table : tables) report.table_names.push_back(table.name);
   report.shared_runs = tables_of_shared_runs(all);
   report.species = all.front().species;
-  const auto pairs = pairs_of(s, report.species);
+  auto pairs = pairs_of(s, report.species);
   const auto data = select_fit_data(all, report.quantity, s.filters, pairs);
+  for (const auto& pair : take_pairs_without_points(pairs, data))
+    report.doubts_of_tables.push_back(
+        fmt::format("B of {} and {} is not fitted: no layer that is used holds enough of both",
+                    report.species[pair.smaller].name, report.species[pair.larger].name));
   require_population(s, data);
   report.shares = weight_shares(data, report.flows.size());
   report.rules = fit_pairs(all, report.quantity, s.filters, pairs, rules, settings,

@@ -241,30 +241,45 @@ const char* sign_of(const Estimate& estimate)
   return "not known";
 }
 
-/// The share p at which B(p) + `more` = 0; `none` and `all` are B at p = 0 and p = 1.
-Linear zero_of(const Linear& none, const Linear& all, const Linear* more)
+/// B at this share of mixed contacts, and dB/dp there.
+std::array<Linear, 2> b_at(const Regressions& regressions, double share)
 {
-  const double reach = none.value - all.value;
-  const double value = (none.value + (more ? more->value : 0)) / reach;
-  std::vector<std::pair<double, const Linear*>> parts{{(1 - value) / reach, &none},
-                                                      {value / reach, &all}};
-  if (more) parts.emplace_back(1 / reach, more);
-  return combined(value, parts);
+  const auto mean = [&](const auto& of) {
+    return regressions.mean([&](const ClosurePoint& p) { return of(p) / p.product; },
+                            [](const ClosurePoint& p) { return p.frames * p.product; });
+  };
+  return {mean([&](const ClosurePoint& p) { return p.excess_at(share); }),
+          mean([&](const ClosurePoint& p) { return p.slope_of_excess(share); })};
+}
+
+/// The share p at which B(p) + `more` = 0, by Newton's method.
+Linear zero_of(const Regressions& regressions, const Linear* more)
+{
+  constexpr int most_steps = 50;
+  double share = 0.5, step = 1;
+  for (int k = 0; k < most_steps && std::abs(step) > 1e-14 * std::abs(share); ++k) {
+    const auto [b, slope] = b_at(regressions, share);
+    step = (b.value + (more ? more->value : 0)) / slope.value;
+    share -= step;
+  }
+  const auto [b, slope] = b_at(regressions, share);
+  std::vector<std::pair<double, const Linear*>> parts{{-1 / slope.value, &b}};
+  if (more) parts.emplace_back(-1 / slope.value, more);
+  return combined(share, parts);
 }
 
 void add_rules(Report& report, const Regressions& regressions,
                const std::vector<PartitionRule>& rules, const std::array<Linear, 2>& flux,
                const std::array<Linear, 2>* tau)
 {
-  const auto none = b_of(regressions, rules.size()), all = b_of(regressions, rules.size() + 1);
   const auto b_over_c = report.estimate(flux[0]);
   if (b_over_c.low <= 0 && b_over_c.high >= 0)
     report.summary.remarks.emplace_back(
         "the interval of B/c contains 0: c(p) = B(p)/(B/c) is not determined");
-  report.add("p_zero", zero_of(none, all, nullptr));
-  if (tau) report.add("p_zero_kept", zero_of(none, all, &(*tau)[0]));
-  report.add("dc_dp[1/s]",
-             quotient(combined(all.value - none.value, {{1, &all}, {-1, &none}}), flux[0]));
+  const auto zero = zero_of(regressions, nullptr);
+  report.add("p_zero", zero);
+  if (tau) report.add("p_zero_kept", zero_of(regressions, &(*tau)[0]));
+  report.add("dc_dp[1/s]", quotient(b_at(regressions, zero.value)[1], flux[0]));
   std::string signs;
   for (std::size_t rule = 0; rule < rules.size(); ++rule) {
     const auto name = rules[rule].name();
@@ -284,7 +299,7 @@ void add_rules(Report& report, const Regressions& regressions,
   report.summary.remarks.push_back(fmt::format(
       "sign of c by rule: {}; it changes at p* = {:.3f}; if c < 0, the drag of the closure "
       "pushes grains in their direction of motion",
-      signs, zero_of(none, all, nullptr).value));
+      signs, zero.value));
 }
 
 }  // namespace

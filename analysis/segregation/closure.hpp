@@ -26,8 +26,9 @@ namespace grseg {
 /// alone. A rule then gives c(p) = B(p)/(B/c), with
 /// B(p) = sum frames (psi_L - phi_L)/sum frames phi_L phi_S over the same rows; this ratio lacks
 /// the bias that products with phi_L have for few grains. If all mixed contacts have the same share
-/// p, B and c are proportional to p - p*, so c changes its sign at p*. If c < 0, the "drag" of the
-/// closure pushes grains in their direction of motion.
+/// p, B and c are proportional to p - p*, so c changes its sign at p*. In tables of --assign grain
+/// B(p) is no straight line; dc_dp is then the slope at p*. If c < 0, the "drag" of the closure
+/// pushes grains in their direction of motion.
 ///
 /// Kinetic terms and inertia, t = k_push + k_spread - a, change this exactly as follows. With the
 /// same regression t = tau_X X - tau_G G + rest, the coefficients of the flux are (B + tau_X)/c and

@@ -260,13 +260,16 @@ void add_stress(ClosurePoint& point, const Stress& stress, const std::vector<Par
   const double phi = stress.phi();
   point.phi_large = phi;
   point.product = phi * (1 - phi);
+  std::vector<double> totals;
   for (const auto& rule : rules) {
     const auto parts = partial_stress(stress.sums, rule);
     const double total = parts.total(1, 1);
     const bool has_share = rule.adds_up() && total > 0;
     point.excess.push_back(has_share ? parts.large()(1, 1) / total - phi - stress.within
                                      : no_number);
+    totals.push_back(total);
   }
+  point.total_ratio = totals.back() / totals[totals.size() - 2];
 }
 
 /// Gravity along y, m/s^2, of the run. Throws UsageError if layers or windows of the two tables
@@ -390,6 +393,20 @@ void number_windows(const std::vector<TableWindow>& window_of_point,
 }
 
 }  // namespace
+
+// sigma_L and sigma are linear in the share, so psi_L is the mean of its values at 0 and 1 with the
+// weights (1 - p) sigma(0) and p sigma(1).
+double ClosurePoint::excess_at(double share) const
+{
+  const double of_all = share * total_ratio;
+  return ((1 - share) * excess.end()[-2] + of_all * excess.back()) / (1 - share + of_all);
+}
+
+double ClosurePoint::slope_of_excess(double share) const
+{
+  const double total = 1 - share + share * total_ratio;
+  return total_ratio * (excess.back() - excess.end()[-2]) / (total * total);
+}
 
 ClosureData read_closure(const std::vector<Table>& tables, const std::vector<PartitionRule>& rules,
                          const ClosureFilter& filter)

@@ -58,6 +58,13 @@ struct ClosurePoint {
   // psi_L - phi_L by rule, then for shares 0 and 1 of mixed contacts; without what gradients inside
   // the layer add (FitPoint::within)
   std::vector<double> excess;
+  double total_ratio =
+      1;  // sigma_yy at share 1 over sigma_yy at share 0; both are equal unless the
+          // table shares mixed contacts between layers (--assign grain)
+
+  /// psi_L - phi_L if the larger grain gets this share of mixed contacts.
+  double excess_at(double share) const;
+  double slope_of_excess(double share) const;  // its derivative by the share
 };
 
 /// Instrumental variables of the regression (closure.hpp).

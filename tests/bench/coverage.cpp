@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Coverage of 95 % intervals, i.e. how often they contain the truth, on windows of known
@@ -17,7 +18,7 @@ namespace {
 
 using namespace synthetic;
 
-constexpr int trials = 1000;
+int trials = 1000;  // of each line of the tables
 
 /// Coverage over the trials, and the half-width in units of the range that contains 95 % of the estimates.
 class Tally {
@@ -45,6 +46,32 @@ class Tally {
   std::vector<double> widths_;
 };
 
+/// The same layers with mixed contacts that carry the part `mixed` of the stress, to find p*.
+constexpr double mixed = 0.4;
+FitData with_mixed_contacts(FitData data)
+{
+  data.quantity = Quantity::contact;
+  for (auto& sums : data.rows) {
+    for (std::size_t species = 0; species < 2; ++species)
+      sums.of(OwnSum::inside, species) *= 1 - mixed;
+    sums.of(PairSum::whole, 0)(1, 1) = mixed;
+  }
+  return data;
+}
+
+/// p* of with_mixed_contacts() in the limit of infinitely many windows: phi_S, phi_L and B without
+/// mixed contacts give the excess of large grains, (1 - m) B sum phi_L phi_S + m sum (p - phi_L) = 0.
+double true_zero(double b)
+{
+  double phi_sum = 0, products = 0, layers = 0;
+  for (const double phi : ScatteredStress::compositions) {
+    phi_sum += phi;
+    products += phi * (1 - phi);
+    ++layers;
+  }
+  return (phi_sum - (1 - mixed) / mixed * b * products) / layers;
+}
+
 constexpr double Estimators::*shown[] = {&Estimators::B, &Estimators::paper_B,
                                          &Estimators::paper_a};
 
@@ -52,7 +79,7 @@ void print_one_run(double rho, std::size_t windows)
 {
   Ar1 noise(rho);
   const auto truth = ScatteredStress::truth(0);
-  Tally mean(0), undoubted(truth.B);
+  Tally mean(0), undoubted(truth.B), zero(true_zero(truth.B));
   std::vector<Tally> estimates;
   for (const auto place : shown) estimates.emplace_back(truth.*place);
   int doubted = 0;
@@ -60,7 +87,11 @@ void print_one_run(double rho, std::size_t windows)
     const auto of_mean =
         mean_over_windows(noise.series(static_cast<Eigen::Index>(windows)), {windows}).estimate();
     mean.add(of_mean.value, of_mean);
-    const auto fit = fit_rule(ScatteredStress::windows({windows}, 0, noise), {}, {});
+    const auto data = ScatteredStress::windows({windows}, 0, noise);
+    const auto fit = fit_rule(data, {}, {});
+    const auto p_zero =
+        line_over_share(with_mixed_contacts(data), {}, Population::windows).p_zero.estimate();
+    zero.add(p_zero.value, p_zero);
     for (std::size_t k = 0; k < std::size(shown); ++k)
       estimates[k].add(fit.value.*shown[k], fit.estimate(shown[k]));
     doubted += !fit.doubt.empty();
@@ -68,7 +99,7 @@ void print_one_run(double rho, std::size_t windows)
   }
   fmt::print("{:3} {:7} {:6.3f}", rho, windows, mean.coverage());
   for (const auto& tally : estimates) fmt::print(" {:8.3f}", tally.coverage());
-  fmt::print(" {:6.2f} {:8.3f} {:9.3f}\n", estimates[0].width(),
+  fmt::print(" {:8.3f} {:6.2f} {:8.3f} {:9.3f}\n", zero.coverage(), estimates[0].width(),
              static_cast<double>(doubted) / trials, undoubted.coverage());
   std::fflush(stdout);
 }
@@ -251,21 +282,29 @@ void print_all_flows()
         print_flows({flows, runs, scatter, variance});
 }
 
-void print_all()
+void print_windows()
 {
   fmt::print(
       "# {} trials each; width: median, 1 = 1.96 standard deviations of the estimates; doubt: share of\n"
       "# the trials in which the tool warns; coverage of B where it does not\n"
-      "# one run\n# rho windows   mean B paper_B paper_a  width    doubt undoubted\n",
+      "# one run\n# rho windows   mean B paper_B paper_a p*  width    doubt undoubted\n",
       trials);
   for (const double rho : {0.0, 0.5, 0.8})
     for (const std::size_t windows : {3u, 6u, 12u, 24u, 48u, 120u, 480u})
       print_one_run(rho, windows);
+}
+
+void print_drifts()
+{
   fmt::print(
       "# one run whose layers segregate, under a rule whose B depends on composition\n"
       "# rho windows B  width\n");
   for (const double rho : {0.0, 0.5, 0.8})
     for (const std::size_t windows : {24u, 48u, 120u, 480u}) print_drift(rho, windows);
+}
+
+void print_all_runs()
+{
   fmt::print(
       "# several runs of 30 windows, rho = 0.5\n"
       "# runs scatter B  width  windows_alone  width\n");
@@ -273,14 +312,20 @@ void print_all()
     for (const double scatter : {0.0, 1.0, 3.0}) print_runs(runs, scatter);
 }
 
+constexpr std::pair<const char*, void (*)()> tables[] = {{"windows", print_windows},
+                                                         {"drifts", print_drifts},
+                                                         {"runs", print_all_runs},
+                                                         {"flows", print_all_flows},
+                                                         {"starts", print_starts}};
+
 }  // namespace
 }  // namespace grseg
 
-/// Arguments "flows" or "starts": prints only this table.
+/// coverage [TABLE [TRIALS]]: prints one table or all.
 int main(int argc, char** argv)
 {
   const std::string only = argc < 2 ? "" : argv[1];
-  if (only.empty()) grseg::print_all();
-  if (only != "starts") grseg::print_all_flows();
-  if (only != "flows") grseg::print_starts();
+  if (argc > 2) grseg::trials = std::stoi(argv[2]);
+  for (const auto& [name, print] : grseg::tables)
+    if (only.empty() || only == name) print();
 }

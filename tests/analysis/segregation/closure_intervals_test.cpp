@@ -144,6 +144,31 @@ TEST(SegregationClosure, IntervalsOfCAndPStarFollowFromThoseOfWhatTheyAreMadeOf)
   EXPECT_NEAR(width_of(off, "p_zero"), width_of(off, "B@size") / 0.8, 1e-10);
 }
 
+// Contacts that are shared between layers change the total stress of a layer with the share p. With
+// the ratio r of totals, psi_L is ((1 - p) psi(0) + p r psi(1))/(1 - p + p r).
+TEST(SegregationClosure, PStarIsTheZeroOfBAlsoWhereTheShareChangesTheStressOfALayer)
+{
+  synthetic::Ar1 noise(0);
+  auto data = noisy({60}, 0.1, noise);
+  for (auto& point : data.points) point.total_ratio = 1.2;
+  const auto same = closure_summary(data, parse_rules({"size"}));
+  const double zero = 0.5 / (0.5 + 1.2 * 0.3), total = 1 + 0.2 * zero;
+  EXPECT_NEAR(number_of(same, "p_zero").value, zero, 1e-12);
+  EXPECT_NEAR(
+      number_of(same, "dc_dp[1/s]").value * number_of(same, "B_over_c[s]").value * total * total,
+      1.2 * 0.8, 1e-12);
+
+  for (std::size_t k = 0; k < data.points.size(); k += 2) data.points[k].total_ratio = 0.7;
+  const double share = number_of(closure_summary(data, parse_rules({"size"})), "p_zero").value;
+  double excess = 0, product = 0;
+  for (const auto& point : data.points) {
+    excess += point.excess_at(share);
+    product += point.product;
+  }
+  EXPECT_NEAR(excess / product, 0, 1e-14);
+  EXPECT_GT(std::abs(share - 0.5 / 0.8), 1e-3);
+}
+
 // The factor is one over the sine of the angle between the regressors.
 TEST(SegregationClosure, CollinearRegressorsAreReportedWithWhatTheyMakeOfTheError)
 {
