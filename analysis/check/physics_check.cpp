@@ -346,6 +346,9 @@ void PhysicsCheck<D>::add_drifts(std::vector<CheckLine>& lines) const
   if (!(gravity_.norm() > 0))
     return skip({named("x_drift"), named("z_drift")}, "without gravity a drift has no scale",
                 lines);
+  if (!run_.has_images())
+    return skip({named("x_drift"), named("z_drift")},
+                "the file does not tell how often grains have crossed a period", lines);
   const double speed = std::sqrt(gravity_.norm() * small_diameter_);
   for (const auto& [check, rates] : {std::pair{named("x_drift"), &means.stray_rate},
                                      {named("z_drift"), &means.stray_rate_across}}) {

@@ -169,7 +169,7 @@ ShownRun show_run(const TrajectoryReader& run, const Grains& grains,
                   const std::vector<std::size_t>& frames)
 {
   ShownRun all;
-  const Slice slice{run.box().length_z / 2, run.large_diameter()};
+  const Slice slice{run.box().low_z + run.box().length_z / 2, run.large_diameter()};
   const auto gravity = run.gravity<D>();
   WallsInPlane<D> walls(slice.middle);
   Frame<D> frame;

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Frames that the player of the page shows: grains and the contacts between them. Of spheres it shows
-/// those with their centres in a slice about the plane z = length_z/2, the middle of the cell. The slice
+/// those with their centres in a slice about the plane in the middle of the cell. The slice
 /// is as thick as the largest species' diameter, as in pictures of grseg-render.
 namespace grseg {
 

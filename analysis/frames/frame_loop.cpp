@@ -2,6 +2,7 @@
 #include "analysis/frames/frame_loop.hpp"
 
 #include "analysis/frames/grains_below.hpp"
+#include "analysis/frames/ring.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
@@ -17,6 +18,17 @@
 
 namespace grseg {
 namespace {
+
+/// Throws UsageError if the run has a ring about another axis.
+void require_axis_of_ring(const TrajectoryReader& run, const std::string& bins, const Vec2& axis)
+{
+  const auto ring = find_ring(run);
+  if (!ring || (ring->centre - axis).norm() < run.small_diameter() / 4) return;
+  throw UsageError(fmt::format(
+      "--bins {}: base and walls lie on a ring of radius {:.4g} m about another axis; use {}:"
+      "{:.6g}m,{:.6g}m",
+      bins, ring->radius, bins.substr(0, bins.find(':')), ring->centre.x(), ring->centre.y()));
+}
 
 /// Layers or annuli as --layer and --bins say. The cells of a map follow later, from the grains.
 Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
@@ -37,6 +49,7 @@ Layers layers_of(const TrajectoryReader& run, const FrameOptions& options)
         "--bins {}: the cell is periodic along x, so the distance from an axis is not defined; "
         "use {}",
         options.bins, plane ? "xy" : "layers"));
+  require_axis_of_ring(run, options.bins, *axis);
   return Layers::annuli(thickness, box.length_x, *axis, width);
 }
 

@@ -84,6 +84,7 @@ class Run:
     history      one line per program that wrote or changed the data
     observables  names that `observable` accepts
     has_force    True if frames include the force on each grain
+    has_images   True if frames tell how often grains have crossed a period; False for some imports
     digest       content digest of the run, as in tables; it is not verified here
 
     A run that still goes on, or was killed, raises Error. With `unfinished` its complete frames are
@@ -333,6 +334,8 @@ class Run:
     def _require_shapes(self):
         d, grains, frames, contacts = self.dimension, len(self.radius), len(self), int(self._offset[-1])
         self.has_force = "force" in self._file["particles/grains"]
+        self.has_images = (not any(self.periodic) or "import_format" not in self.parameters
+                           or self.parameters.get("import_images") == "known")
         of_grains = ["position", "velocity", "image"] + ["force"] * self.has_force
         rows = {f"particles/grains/{name}/value": (frames, (grains, d)) for name in of_grains}
         rows["particles/grains/angular_velocity/value"] = frames, (grains,) if d == 2 else (grains, 3)
@@ -521,7 +524,8 @@ class Frame:
 
     number, step, time          number of the frame in the run, number of its time step, time (s)
     position [N, D]             positions of the centres, wrapped into the cell, m
-    image [N, D]                number of cell lengths to add to the position along each axis
+    image [N, D]                number of cell lengths to add to the position along each axis; masked if the run
+                                does not tell it (Run.has_images)
     velocity [N, D]             velocities, m/s
     angular_velocity [N], in three dimensions [N, 3]    1/s, counter-clockwise, right-handed
     force [N, D]                contact forces + weight, m (v_after - v_before)/h, N; not in all imported runs
@@ -537,7 +541,7 @@ class Frame:
         self.time = float(block.run.times[self.number])
 
     position = property(lambda self: self._block.grains("position")[self._k])
-    image = property(lambda self: self._block.grains("image")[self._k])
+    image = property(lambda self: np.ma.array(self._block.grains("image")[self._k], mask=not self._block.run.has_images))
     velocity = property(lambda self: self._block.grains("velocity")[self._k])
     angular_velocity = property(lambda self: self._block.grains("angular_velocity")[self._k])
     force = property(lambda self: self._block.grains("force")[self._k])

@@ -51,14 +51,10 @@ constexpr FieldDefinition definitions[] = {
 
 constexpr const char* species_word = "species";
 
-/// Throws UsageError if the run is an import that does not store how often grains have crossed its periods
-/// (formats/README.md). `time` is the argument of --color displacement.
+/// Throws UsageError if the run does not store how often grains have crossed its periods. `time` is the argument of --color displacement.
 void require_images(const TrajectoryReader& run, const std::string& time)
 {
-  const auto& told = run.parameters();
-  const bool periodic = run.box().periodic_x || run.box().periodic_z;
-  if (!periodic || told.text("import_format").empty() || told.text("import_images") == "known")
-    return;
+  if (run.has_images()) return;
   throw UsageError(fmt::format(
       "--color displacement:{0}: {1} does not store how often grains have crossed its "
       "periods; import the run again, from a dump with the columns ix iy iz or xu yu zu, or "

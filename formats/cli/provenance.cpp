@@ -148,6 +148,7 @@ Header verification_lines(const TrajectoryReader& run)
             : fmt::format("the run had not ended; it had {} frames, the last at {:.9g} s",
                           run.size(), run.times().back()));
   add_lines(lines, "cell", run, "import_cell");
+  add_lines(lines, "coordinates", run, "import_coordinates");
   add_lines(lines, "undecided", run, "import_undecided");
   add_lines(lines, "waived", run, "import_waived");
   return lines;

@@ -59,6 +59,9 @@ struct Box {
   int dimension = 2;
   double length_z = 0;  // width across the flow, m; 0 in two dimensions
   bool periodic_z = false;
+  // Ends of the cell at the smallest x and z, m. 0 along periods and in runs of grseg-sim; an import
+  // keeps the archive's coordinates along open axes.
+  double low_x = 0, low_z = 0;
 };
 
 /// Area of a disc (m^2) or volume of a sphere (m^3) of this radius (m).

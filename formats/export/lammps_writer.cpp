@@ -145,11 +145,11 @@ class LammpsWriter : public RunWriter {
   void add_grains(const Frame<D>& frame)
   {
     const auto& grains = run_.grains();
-    const bool has_force = run_.has_force();
+    const bool has_force = run_.has_force(), has_images = run_.has_images();
     fmt::memory_buffer text;
     const auto end = std::back_inserter(text);
-    fmt::format_to(end, "{}id type mass radius x y z ix iy iz vx vy vz {}omegaz{}\n",
-                   head(frame, "ATOMS", number_present(frame)), D == 3 ? "omegax omegay " : "",
+    fmt::format_to(end, "{}id type mass radius x y z{} vx vy vz {}omegaz{}\n",
+                   head(frame, "ATOMS", number_present(frame)), has_images ? " ix iy iz" : "", D == 3 ? "omegax omegay " : "",
                    has_force ? " fx fy fz" : "");
     for (std::size_t g = 0; g < grains.size(); ++g) {
       if (!is_present(frame, g)) continue;
@@ -158,7 +158,8 @@ class LammpsWriter : public RunWriter {
                      type_of(grains.species[g], run_.species().size()), grains.mass[g],
                      grains.radius[g]);
       add_vector(text, in_space<D>(frame.position[g]));
-      fmt::format_to(end, " {} {} {}", image[0], image[1], D == 3 ? image[D - 1] : 0);
+      if (has_images)
+        fmt::format_to(end, " {} {} {}", image[0], image[1], D == 3 ? image[D - 1] : 0);
       add_vector(text, in_space<D>(frame.velocity[g]));
       if constexpr (D == 2)
         fmt::format_to(end, " {}", frame.angular_velocity[g]);

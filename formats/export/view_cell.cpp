@@ -12,11 +12,13 @@ ViewCell view_cell(const TrajectoryReader& run, std::size_t frame)
   const auto& radius = run.grains().radius;
   const double largest = *std::max_element(radius.begin(), radius.end());
   const auto& box = run.box();
-  ViewCell cell{
-      {0, 0, -largest}, {box.length_x, box.length_y, largest}, box.periodic_x, box.periodic_z};
+  ViewCell cell{{box.low_x, 0, -largest},
+                {box.low_x + box.length_x, box.length_y, largest},
+                box.periodic_x,
+                box.periodic_z};
   if (run.dimension() == 3) {
-    cell.low[2] = 0;
-    cell.high[2] = box.length_z;
+    cell.low[2] = box.low_z;
+    cell.high[2] = box.low_z + box.length_z;
   }
   with_dimension(run.dimension(), [&](auto d) {
     Frame<d> first;

@@ -298,6 +298,13 @@ void TrajectoryReader::unpack(const Packed& packed, Frame<D>& frame) const
     run_->fail(changed(*field, packed.index));
 }
 
+bool TrajectoryReader::has_images() const
+{
+  const auto& told = parameters();
+  return !(box().periodic_x || box().periodic_z) || told.text("import_format").empty() ||
+         told.text("import_images") == "known";
+}
+
 bool TrajectoryReader::has_observable(const std::string& name) const
 {
   const auto& all = observables();

@@ -53,6 +53,9 @@ class TrajectoryReader {
   const Parameters& parameters() const { return run_->description.parameters; }
   /// True if frames have forces on grains. False for some imports, whose Frame::force is empty.
   bool has_force() const { return run_->description.has_force; }
+  /// True if images of frames count how often grains have crossed a period. False for imports of
+  /// archives that do not tell; their images mean nothing.
+  bool has_images() const;
   /// True if grains may be absent in some frames (is_present() of core/frame.hpp).
   bool grains_come_and_go() const { return run_->description.grains_come_and_go; }
   /// True if the writer finished and closed the file.

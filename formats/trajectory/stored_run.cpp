@@ -53,6 +53,7 @@ class HeadReader {
     read_offset();
     read_box();
     for (const auto& name : names_in(file_, "/parameters")) read_parameter(name);
+    read_ends_of_cell();
     read_species();
     read_grains();
     read_times();
@@ -68,6 +69,17 @@ class HeadReader {
   CheckedDataset open(const std::string& at, H5T_class_t kind, int rank) const
   {
     return {file_, at, kind, rank, run_.path};
+  }
+
+  void read_ends_of_cell()
+  {
+    const auto& numbers = run_.description.parameters.numbers;
+    const auto low = numbers.find("import_low");
+    if (low == numbers.end()) return;
+    auto& box = run_.description.box;
+    if (low->second.size() != 2) run_.fail("/parameters/import_low has not two numbers");
+    box.low_x = low->second[0];
+    box.low_z = low->second[1];
   }
 
   std::vector<double> attribute(const char* path, const char* name) const

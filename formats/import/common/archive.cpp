@@ -68,19 +68,31 @@ std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& gr
   return rows;
 }
 
-void enclose_grains(ArchiveFrame& frame)
+std::string hint_of_digits(std::int64_t id)
 {
-  const auto& grains = frame.grains;
-  Vec3 low = grains.position.front(), high = low;
+  constexpr std::int64_t beyond_six_digits = 1'000'000;
+  return id >= beyond_six_digits && id % 10 == 0
+             ? "; was it written with six digits, as by %g? Write ids as whole numbers, as by %d"
+             : "";
+}
+
+Eigen::AlignedBox3d box_around(const ArchiveGrains& grains)
+{
+  Eigen::AlignedBox3d box;
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec3 reach = Vec3::Constant(grains.radius.empty() ? 0 : grains.radius[g]);
-    low = low.cwiseMin(grains.position[g] - reach);
-    high = high.cwiseMax(grains.position[g] + reach);
+    box.extend(grains.position[g] - reach).extend(grains.position[g] + reach);
   }
+  return box;
+}
+
+void enclose_grains(ArchiveFrame& frame)
+{
+  const auto bed = box_around(frame.grains);
   for (int axis = 0; axis < 3; ++axis) {
     if (frame.periodic[static_cast<std::size_t>(axis)]) continue;
-    frame.low[axis] = low[axis];
-    frame.high[axis] = high[axis];
+    frame.low[axis] = bed.min()[axis];
+    frame.high[axis] = bed.max()[axis];
     frame.cell[static_cast<std::size_t>(axis)] = CellSource::grains;
   }
 }

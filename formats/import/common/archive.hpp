@@ -5,6 +5,7 @@
 #include "formats/core/frame.hpp"
 #include "formats/import/common/archive_files.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -101,6 +102,9 @@ struct ArchiveGrains {
 /// Map from the id of a grain to its row in the arrays.
 std::unordered_map<std::int64_t, std::size_t> rows_by_id(const ArchiveGrains& grains);
 
+/// Text behind a message about an id that ends in zeros as %g writes it, with six digits; else "".
+std::string hint_of_digits(std::int64_t id);
+
 /// The contacts of one frame of an archive, each once, in any order.
 struct ArchiveContacts {
   std::vector<std::int64_t> i, j;  // ids of the two grains; j is not used at a wall
@@ -157,6 +161,9 @@ struct ArchiveFrame {
 /// Largest number of significant decimal digits with which the components are written, 17 for
 /// numbers in binary; 0 if all are 0. The first thousand vectors decide.
 int digits_of(const std::vector<Vec3>& values);
+
+/// The box around the grains, with their radii if these are known.
+Eigen::AlignedBox3d box_around(const ArchiveGrains& grains);
 
 /// Sets the cell of a frame to the extent of its grains, along the axes that are not periodic. For
 /// archives that state no cell; the frame must have grains.

@@ -21,8 +21,8 @@ std::size_t row_of(const ImportedBed& bed, std::int64_t id, const ArchiveFrame& 
   if (found >= 0 && is_present(frame, row(found))) return row(found);
   throw FormatError(fmt::format(
       "{}: a contact names grain {}, which is not among the grains of this frame; are i and j "
-      "ids, and were grains and contacts written at the same steps?",
-      raw.place, id));
+      "ids, and were grains and contacts written at the same steps{}?",
+      raw.place, id, hint_of_digits(id).empty() ? "" : ", with all digits (%d, not %g)"));
 }
 
 /// Throws FormatError for a number that is not finite; not all readers check this.
@@ -129,7 +129,8 @@ void place_grains(const ImportedBed& bed, const ArchiveFrame& raw, Frame<3>& fra
     const auto found = bed.rows.find(from.id[g]);
     if (found < 0) refuse_others(fmt::format("grain {} is not in the first frame", from.id[g]));
     if (placed[row(found)])
-      throw FormatError(fmt::format("{}: grain {} appears twice", raw.place, from.id[g]));
+      throw FormatError(fmt::format("{}: grain {} appears twice{}", raw.place, from.id[g],
+                                    hint_of_digits(from.id[g])));
     placed[row(found)] = true;
     require_same_grain(bed.known, row(found), from, g, raw.place);
     place(bed, raw, g, row(found), frame);

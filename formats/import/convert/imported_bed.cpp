@@ -108,7 +108,8 @@ void ImportedBed::make_grains(const ArchiveFrame& first, const RunFacts& facts,
   std::vector<std::int64_t> ids;
   for (const auto g : order) {
     if (!ids.empty() && ids.back() == from.id[g])
-      throw FormatError(fmt::format("{}: grain {} appears twice", first.place, from.id[g]));
+      throw FormatError(fmt::format("{}: grain {} appears twice{}", first.place, from.id[g],
+                                    hint_of_digits(from.id[g])));
     ids.push_back(from.id[g]);
     grains.species.push_back(species.species[g]);
     grains.radius.push_back(from.radius[g]);
@@ -161,8 +162,7 @@ double ImportedBed::make_length(const ArchiveFrame& first, int direction)
     double first_end = first.low[*axis], last_end = first.high[*axis];
     if (first.cell[k] == CellSource::told) source = "as told by --cell";
     if (first.cell[k] == CellSource::archive) source = "stated by the archive";
-    if (const auto ends = between_walls(walls, *axis);
-        ends && first.cell[k] == CellSource::grains) {
+    if (const auto ends = between_walls(walls, *axis); ends && first.cell[k] != CellSource::told) {
       std::tie(first_end, last_end) = *ends;
       source = "between walls";
     }
@@ -177,10 +177,35 @@ double ImportedBed::make_length(const ArchiveFrame& first, int direction)
       high = std::max(high, x);
     }
   }
-  shift[direction] = -low;
+  const bool periodic = axis && first.periodic[static_cast<std::size_t>(*axis)];
+  if (periodic)
+    shift[direction] = -low;
+  else
+    (direction == 0 ? box.low_x : box.low_z) = low;
   cell += fmt::format("{}{:.6g} long along {}, {}", cell.empty() ? "" : "\n", high - low,
                       direction == 0 ? "x" : "z", source);
   return high - low;
+}
+
+std::string ImportedBed::coordinates() const
+{
+  std::string text;
+  for (int direction = 0; direction < box.dimension; ++direction) {
+    std::string sum;
+    const auto add = [&](double factor, const std::string& term) {
+      const auto sign = factor < 0 ? (sum.empty() ? "-" : " - ") : (sum.empty() ? "" : " + ");
+      sum += sign + term;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      const double part = axes.components(Vec3::Unit(axis))[direction], size = std::abs(part);
+      if (size > 1e-12)
+        add(part, (size > 1 - 1e-12 ? "" : fmt::format("{:.6g} ", size)) + "xyz"[axis]);
+    }
+    if (shift[direction] != 0)
+      add(shift[direction], fmt::format("{:.6g}", std::abs(shift[direction])));
+    text += fmt::format("{}{} = {}", direction == 0 ? "" : ", ", "xyz"[direction], sum);
+  }
+  return text;
 }
 
 /// Throws UsageError if the cell is periodic in another direction than x and z.

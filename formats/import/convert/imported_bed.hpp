@@ -66,11 +66,14 @@ struct ImportedBed {
   Box box;
   SpeciesFound species;
   RowsById rows;
-  ArchiveGrains known;           // constant properties by row: id, radius, mass, type, fixed
-  bool has_new_ids = false;      // true: grains are numbered 1, 2, 3, as the ids exceed 2^31
-  std::string cell;              // text: length along x and z and its source, a line each
+  ArchiveGrains known;       // constant properties by row: id, radius, mass, type, fixed
+  bool has_new_ids = false;  // true: grains are numbered 1, 2, 3, as the ids exceed 2^31
+  std::string cell;          // text: length along x and z and its source, a line each
+  /// Coordinates of the run as functions of the archive's: "x = x + 0.05, y = z - 0.1, z = -y".
+  std::string coordinates() const;
   double origin = 0;             // height in the archive that becomes y = 0
-  Vec3 shift = Vec3::Zero();     // vector to add to positions (components in the axes of the flow)
+  Vec3 shift = Vec3::Zero();     // vector to add to positions (components in the axes of the flow):
+                                 // y begins at `origin`, and a period begins at 0
   std::vector<Period> periods;   // periodic directions of the cell: none, x, z, or both
   std::vector<WallPlane> walls;  // walls given by --wall
 

@@ -100,7 +100,8 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   run.grains = bed.grains;
   units.convert(run.grains);
   run.box = bed.box;
-  for (auto* length : {&run.box.length_x, &run.box.length_y, &run.box.length_z})
+  for (auto* length :
+       {&run.box.length_x, &run.box.length_y, &run.box.length_z, &run.box.low_x, &run.box.low_z})
     *length *= units.length;
   run.has_force = bed.has_force;
   run.grains_come_and_go = bed.grains_come_and_go;
@@ -117,6 +118,8 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   numbers["import_tolerance"] = {
       frames.waivers().limit("balance", frames.archive().facts().tolerance)};
   numbers["import_origin"] = {bed.origin};
+  if (run.box.low_x != 0 || run.box.low_z != 0)
+    numbers["import_low"] = {run.box.low_x, run.box.low_z};
   numbers["import_units"] = {units.length, units.time, units.mass};
   if (bed.has_new_ids) numbers["import_ids"] = {bed.known.id.begin(), bed.known.id.end()};
   if (settings.interval) numbers["import_frame_interval"] = {*settings.interval * units.time};
@@ -132,6 +135,7 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   texts["import_base"] = bed.species.base;
   texts["import_sizes"] = bed.species.sizes;
   texts["import_cell"] = bed.cell;
+  texts["import_coordinates"] = bed.coordinates() + " of the archive, in its units";
   texts["import_columns"] = frames.archive().columns();
   if (run.box.periodic_x || run.box.periodic_z)
     texts["import_images"] = bed.counts_periods ? "known" : "unknown";
@@ -177,9 +181,9 @@ Vec3 gravity_in_archive(const RunFacts& facts)
                           ? judgement.also_failed(in_si(frames.numbers(), frames.facts().units))
                           : std::string();
   const bool offer = fitting.empty() && complaint.check == "balance";
-  throw CheckError(
-      fmt::format("{}: {}{}{}{}", frames.place(), complaint.sentence, fitting, others,
-                  offer ? "; --accept-residual balance=R accepts residuals up to R" : ""));
+  throw CheckError(fmt::format(
+      "{}: {}{}{}{}{}", frames.place(), complaint.sentence, frames.scanned().about_digits(),
+      fitting, others, offer ? "; --accept-residual balance=R accepts residuals up to R" : ""));
 }
 
 /// Sentences about all data of the archive that are left out or changed. Complete once the archive
@@ -402,6 +406,7 @@ std::string to_text(const ImportReport& report)
                       parameters.text("import_sizes"));
   for (const auto& line : parts_of(parameters.text("import_cell"), '\n'))
     text += fmt::format("cell: {}\n", line);
+  text += fmt::format("coordinates: {}\n", parameters.text("import_coordinates"));
   const auto largest = number("import_residual_largest");
   if (largest)
     text +=

@@ -28,6 +28,7 @@ class Collector {
       all.low[axis] = std::min(all.low[axis], frame.low[axis]);
       all.high[axis] = std::max(all.high[axis], frame.high[axis]);
     }
+    roster_.bed.extend(box_around(now));
     roster_.fewest = std::min(roster_.fewest, now.size());
     roster_.most = std::max(roster_.most, now.size());
     for (std::size_t g = 0; g < now.size(); ++g) add_grain(frame, g);
@@ -67,7 +68,8 @@ class Collector {
     if (is_new) add_new(frame, g);
     auto& seen = seen_[row];
     if (seen.last == roster_.frames)
-      throw FormatError(fmt::format("{}: grain {} appears twice", frame.place, now.id[g]));
+      throw FormatError(fmt::format("{}: grain {} appears twice{}", frame.place, now.id[g],
+                                    hint_of_digits(now.id[g])));
     seen.last = roster_.frames;
     ++seen.times;
     if (!is_new) require_same_grain(all, row, now, g, frame.place);
@@ -139,6 +141,15 @@ bool base_is_open(const ArchiveGrains& grains, const ImportSettings& settings)
 {
   const auto& species = settings.species;
   return grains.fixed.empty() && !species.boundary && !species.boundary_ids;
+}
+
+/// True if the bed ends before the cell of `frame` on a side of an axis, by more than a tenth of the
+/// smallest radius.
+bool ends_before(const Eigen::AlignedBox3d& bed, const ArchiveFrame& frame, int axis)
+{
+  const auto& radius = frame.grains.radius;
+  const double enough = radius.empty() ? 0 : *std::min_element(radius.begin(), radius.end()) / 10;
+  return bed.min()[axis] - frame.low[axis] > enough || frame.high[axis] - bed.max()[axis] > enough;
 }
 
 /// Remark if coordinates have so few digits that gaps and overlaps are uncertain; "" if not.
@@ -300,29 +311,37 @@ void ScannedArchive::ask_for_the_bed(const ImportSettings& settings,
   }
 }
 
-/// Question for the bounds of the cell along an axis. Reads all frames to propose an answer.
-Question ScannedArchive::question_of_cell(const ImportSettings& settings, int axis) const
+/// Question for the bounds of the cell along an open axis, if the archive states none, or some that
+/// lie behind the bed of all frames. Proposes the bed's own ends.
+std::optional<Question> ScannedArchive::question_of_cell(const ImportSettings& settings,
+                                                         int axis) const
 {
-  double low = all_grains().low[axis], high = all_grains().high[axis];
-  if (!roster_) {
+  const bool is_stated = all_grains().cell[static_cast<std::size_t>(axis)] == CellSource::archive;
+  auto bed = box_around(frame.grains);
+  if (is_stated && !ends_before(bed, all_grains(), axis)) return std::nullopt;
+  if (roster_) {
+    bed = roster_->bed;
+  } else {
     try {
-      const auto all = read_roster(settings).all;
-      low = all.low[axis], high = all.high[axis];
+      bed = read_roster(settings).bed;
     } catch (const ToolError&) {  // the import reports the error when it reads that frame
     }
   }
+  if (is_stated && !ends_before(bed, all_grains(), axis)) return std::nullopt;
   const char name = "xyz"[axis];
+  const auto what = fmt::format("the ends of the bed along {}", name);
   if (const auto period = suggested_period(frame, axis))
-    return {
-        fmt::format("the ends of the cell along {}", name),
-        "--cell " + ToldCell{axis, period->low, period->high, true}.text(),
+    return Question{
+        what, "--cell " + ToldCell{axis, period->low, period->high, true}.text(),
         fmt::format("{} contacts of the first frame join grains of opposite ends, so the cell is "
                     "periodic; the period follows from them, give the exact one if you know it",
                     period->contacts)};
-  return {fmt::format("the ends of the cell along {}", name),
-          "--cell " + ToldCell{axis, low, high, false}.text(),
-          "the archive states no cell, or one fitted to its grains; "
-          "this is the grains' extent over all frames"};
+  const auto box =
+      is_stated ? fmt::format("the archive's box ends at {:.6g} and {:.6g}, behind all grains",
+                              all_grains().low[axis], all_grains().high[axis])
+                : "the archive states no cell, or one fitted to its grains";
+  return Question{what, "--cell " + ToldCell{axis, bed.min()[axis], bed.max()[axis], false}.text(),
+                  box + "; this is the grains' extent over all frames"};
 }
 
 /// Asks for the bounds of the cell, which areas and volumes of the bed depend on.
@@ -332,8 +351,9 @@ void ScannedArchive::ask_for_the_cell(const ImportSettings& settings, Questions&
   for (const int direction : {0, 2}) {
     const auto axis = facts.orientation.axes.axis_of(direction);
     if (!axis || (direction == 2 && facts.dimension == 2) || between_walls(walls, *axis)) continue;
-    if (all_grains().cell[static_cast<std::size_t>(*axis)] == CellSource::grains)
-      questions.ask(question_of_cell(settings, *axis));
+    const auto k = static_cast<std::size_t>(*axis);
+    if (all_grains().cell[k] == CellSource::told || all_grains().periodic[k]) continue;
+    if (auto question = question_of_cell(settings, *axis)) questions.ask(std::move(*question));
   }
 }
 

@@ -31,6 +31,7 @@ struct Roster {
   ArchiveFrame all;
   std::size_t fewest = 0, most = 0;  // smallest and largest number of grains in a frame
   std::size_t frames = 0;
+  Eigen::AlignedBox3d bed;  // around the grains of all frames
 
   bool grains_change() const { return fewest < all.grains.size(); }
 };
@@ -63,6 +64,8 @@ class ScannedArchive {
   const Archive& archive() const { return frames_.archive(); }
   /// Sentences about the data left out so far.
   std::vector<std::string> remarks() const;
+  /// "; coordinates have 6 digits: ..." if they are too few to know overlaps well, otherwise "".
+  std::string about_digits() const { return few_digits_.empty() ? "" : "; " + few_digits_; }
   /// The grains of all frames; null if all frames have the grains of the first one.
   const std::shared_ptr<const Roster>& roster() const { return roster_; }
   /// A frame with all grains of the run: Roster::all, or without a roster the current frame.
@@ -77,7 +80,7 @@ class ScannedArchive {
   void ask_for_the_bed(const ImportSettings& settings, const std::vector<bool>& resting,
                        Questions& questions) const;
   void ask_for_the_cell(const ImportSettings& settings, Questions& questions) const;
-  Question question_of_cell(const ImportSettings& settings, int axis) const;
+  std::optional<Question> question_of_cell(const ImportSettings& settings, int axis) const;
 
   ArchiveFrames frames_;
   std::shared_ptr<const Roster> roster_;

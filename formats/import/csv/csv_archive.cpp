@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/text_values.hpp"
+#include "formats/import/common/unused_columns.hpp"
 #include "formats/import/csv/csv_map.hpp"
 #include "formats/import/csv/csv_table.hpp"
 
@@ -8,11 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace grseg {
@@ -190,12 +193,24 @@ std::vector<std::string> all_names(std::span<const CsvTable::Column> columns)
   return names;
 }
 
-/// Throws FormatError if the table has neither the y nor the z component of a vector.
-void require_y_or_z(const CsvTable& table, std::size_t x, const char* y)
+/// A sentence about columns that the table lacks; each vector that begins at one of `vectors` needs
+/// y or z.
+std::string complaint_of(const CsvTable& table,
+                         std::initializer_list<std::pair<std::size_t, const char*>> vectors)
 {
-  if (!table.has(x + 1) && !table.has(x + 2))
-    table.fail(fmt::format("no column {0} among {1}; name the column with --map NAME={0}", y,
-                           table.names()));
+  auto missing = table.missing();
+  for (const auto& [x, y] : vectors)
+    if (!table.has(x + 1) && !table.has(x + 2)) missing.emplace_back(y);
+  return table.complaint(missing);
+}
+
+/// Names in headers that viewers add, without a meaning for the grains.
+bool is_of_a_viewer(const std::string& name)
+{
+  const auto plain = plain_name(name);
+  return plain.starts_with("vtkoriginal") || plain.ends_with("magnitude") || plain == "colour" ||
+         plain == "color" || plain == "temperature" || plain == "density" || plain == "element" ||
+         plain == "name";
 }
 
 class CsvArchive : public Archive {
@@ -209,9 +224,10 @@ class CsvArchive : public Archive {
         facts_(comments_.facts)
   {
     grains_map_.require_all_used(contacts_map_);
-    require_y_or_z(grains_, of_grain::x, "y");
-    require_y_or_z(grains_, of_grain::vx, "vy");
-    require_y_or_z(contacts_, of_contact::fx, "fy");
+    const auto grains = complaint_of(grains_, {{of_grain::x, "y"}, {of_grain::vx, "vy"}});
+    const auto contacts = complaint_of(contacts_, {{of_contact::fx, "fy"}});
+    if (!grains.empty() || !contacts.empty())
+      throw FormatError(grains + (grains.empty() || contacts.empty() ? "" : "; ") + contacts);
     facts_.tolerance = 1e-4;
     facts_.lists_all = false;  // the table may come from contact dynamics
     facts_.tolerance_reason = "the digits of the tables";
@@ -238,6 +254,7 @@ class CsvArchive : public Archive {
     fill(frame.grains);
     enclose_grains(frame);
     fill(frame.contacts);
+    ask_for_columns(frame);
     judge_digits(frame.contacts.force);
     return true;
   }
@@ -248,6 +265,17 @@ class CsvArchive : public Archive {
   }
 
  private:
+  /// Asks once for columns of grains without known names. Columns of contacts cannot mislead: forces
+  /// must balance, and pairs must touch.
+  void ask_for_columns(ArchiveFrame& frame)
+  {
+    if (std::exchange(has_asked_, true)) return;
+    auto unused = grains_.unused();
+    std::erase_if(unused, is_of_a_viewer);
+    if (auto question = question_of_columns(unused, grains_.begin()))
+      frame.questions.push_back(std::move(*question));
+  }
+
   /// Ten rounded forces, half a unit of the last digit each, may be missing in a grain's balance.
   void judge_digits(const std::vector<Vec3>& forces)
   {
@@ -333,6 +361,7 @@ class CsvArchive : public Archive {
   CsvComments comments_;
   ArchiveFacts facts_;
   Matching matching_;
+  bool has_asked_ = false;  // true: the columns of the first frame were asked for
 };
 
 /// Role of a file by its line of column names: a table of contacts has a column j or id2.

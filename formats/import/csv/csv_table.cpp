@@ -190,7 +190,6 @@ void CsvTable::read_names()
   }
   numbers_ = CsvNumbers(separator_);
   name_columns();
-  require_a_time();
 }
 
 /// True if the line, expected to have column names, has numbers in more than half of its fields.
@@ -243,6 +242,9 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
 {
   place_.clear();
   first_row_.reset();
+  missing_.clear();
+  unused_.clear();
+  std::vector<bool> used(names.size());
   for (const auto& column : columns_) {
     place_.push_back(-1);
     const auto known = parts_of(column.names, '|');
@@ -254,6 +256,7 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
                         "NAME=",
                         known[0]));
       place_.back() = static_cast<int>(k);
+      used[k] = true;
     }
     if (place_.back() >= 0) continue;
     const bool may_be_row = column.holds == Column::ids;
@@ -261,21 +264,28 @@ void CsvTable::find_columns(const std::vector<std::string>& names)
     if (may_be_row && first_row_)
       row_column_ = place_.size() - 1;
     else if (column.needed)
-      fail(fmt::format("no column {0} among {1}; name the column with --map NAME={2}{3}",
-                       fmt::join(known, " or "), this->names(), known[0],
-                       may_be_row ? ", or use the number of the row, from 0, with "
-                                    "--map row=id (from 1: row+1=id)"
-                                  : ""));
+      missing_.push_back(known[0]);
   }
+  if (!has(0) && !has(1) && !files_[opened_ - 1].time) missing_.emplace_back("time");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (!used[k] && !names[k].empty() && header_[k] != std::to_string(k + 1))
+      unused_.push_back(header_[k]);
 }
 
-void CsvTable::require_a_time() const
+std::string CsvTable::complaint(const std::vector<std::string>& missing) const
 {
-  if (!has(0) && !has(1) && !files_[opened_ - 1].time)
-    fail(
-        fmt::format("no column time or step among {}, and none in the name of the "
-                    "file; name the column with --map NAME=time",
-                    names()));
+  if (missing.empty()) return "";
+  const auto has = [&](const char* name) {
+    return std::ranges::find(missing, name) != missing.end();
+  };
+  return fmt::format("{}: no column{} {} among {}; --map NAME={} names {}{}{}", source_->place(),
+                     missing.size() > 1 ? "s" : "", fmt::join(missing, ", "), names(),
+                     fmt::join(missing, ",NAME="), missing.size() > 1 ? "them" : "it",
+                     has("id")
+                         ? ", and --map row=id takes the number of the row, from 0, as the id "
+                           "(from 1: row+1=id)"
+                         : "",
+                     has("time") ? "; a time or step may also be in the names of files" : "");
 }
 
 /// True if the first line of a further file contains column names.
@@ -301,6 +311,7 @@ bool CsvTable::go_to_row()
     split_csv(line_, separator_, fields_);
     if (!is_header()) break;
     read_names();
+    if (!missing_.empty()) throw FormatError(complaint(missing_));
     if (std::exchange(row_waits_, false)) break;
   }
   return true;

@@ -79,14 +79,20 @@ class CsvTable {
   };
 
   /// Opens the table. `columns[0]` is the time, `columns[1]` the step; both are optional. Throws
-  /// UsageError if a file is missing, FormatError naming the line if a required column is missing
-  /// or present twice.
+  /// UsageError if a file is missing, FormatError naming the line if a column is present twice.
+  /// Rows can be read only if missing() is empty.
   CsvTable(std::vector<CsvFile> files, std::span<const Column> columns, CsvMap& map);
 
   bool has(std::size_t column) const { return place_[column] >= 0; }
   /// The words of a column of words, and their codes.
   TypeNames& words() { return words_; }
   const std::vector<std::string>& comments() const { return comments_; }
+  /// Names of the needed columns that the table lacks; a step counts as a time.
+  const std::vector<std::string>& missing() const { return missing_; }
+  /// A sentence about missing columns and how to name them; "" without any.
+  std::string complaint(const std::vector<std::string>& missing) const;
+  /// Names in the header of columns without a known meaning that --map does not leave out.
+  const std::vector<std::string>& unused() const { return unused_; }
   /// The column names of the current file, in quotation marks, for a message.
   std::string names() const;
   [[noreturn]] void fail(const std::string& why) const;
@@ -115,7 +121,6 @@ class CsvTable {
   bool take_names_of_comment();
   void read_names();
   void find_columns(const std::vector<std::string>& names);
-  void require_a_time() const;
   bool go_to_row();
   bool next_row();
   void read_fields();
@@ -129,7 +134,7 @@ class CsvTable {
   CsvMap& map_;
   std::optional<TextSource> source_;
   std::string_view line_;
-  std::vector<std::string> comments_, header_;
+  std::vector<std::string> comments_, header_, missing_, unused_;
   char separator_ = ' ';
   CsvNumbers numbers_;
   bool row_waits_ = false;  // true: the current line, expected to have names, is a row to be read

@@ -3,6 +3,7 @@
 
 #include "formats/cli/interruption.hpp"
 #include "formats/import/common/frame_tools.hpp"
+#include "formats/import/common/unused_columns.hpp"
 #include "formats/import/dump/contact_columns.hpp"
 #include "formats/import/dump/dump_grains.hpp"
 #include "formats/import/dump/dump_pair.hpp"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -148,6 +150,7 @@ class DumpArchive : public Archive {
         columns_text_(files.columns),
         wall_text_(files.wall_columns),
         wall_columns_(walls.empty() ? files.wall_columns : "none"),
+        left_out_(left_out(files.map)),
         facts_(dialect.facts)
   {
     facts_.step = dumps_.step();
@@ -211,6 +214,8 @@ class DumpArchive : public Archive {
     frame.questions.clear();
     frame.place = fmt::format("step {} ({}; {})", header.step, header.place,
                               dumps_.contacts().header().place);
+    if (std::exchange(columns_of_grains_, header.columns) != header.columns)
+      ask_for_columns(header, frame);
     wall_columns_.look_up(header);
     facts_.walls = wall_columns_.walls();
     if (dumps_.walls()) facts_.walls = {"of the rows of --wall-contacts"};
@@ -225,6 +230,16 @@ class DumpArchive : public Archive {
   }
 
  private:
+  void ask_for_columns(const DumpHeader& header, ArchiveFrame& frame) const
+  {
+    auto unknown = unknown_columns(header);
+    std::erase_if(unknown, [&](const std::string& name) {
+      return std::ranges::find(left_out_, name) != left_out_.end();
+    });
+    if (auto question = question_of_columns(unknown, header.place))
+      frame.questions.push_back(std::move(*question));
+  }
+
   void read_contacts(ArchiveFrame& frame)
   {
     const auto header = dumps_.contacts().header();
@@ -285,6 +300,8 @@ class DumpArchive : public Archive {
   std::optional<ContactColumns> columns_;
   std::string wall_text_;  // value of --wall-columns
   WallColumns wall_columns_;
+  std::vector<std::string> left_out_;           // names of columns that --map leaves out
+  std::vector<std::string> columns_of_grains_;  // of the last frame
   std::optional<WallRows> wall_rows_;
   DumpHeader header_;  // header of the contacts for which columns_ is valid
   std::vector<std::vector<double>> values_;

@@ -85,7 +85,30 @@ Integer whole_number(double value, const char* name, const std::string& place)
   return static_cast<Integer>(value);
 }
 
+/// Attributes of LAMMPS's `dump custom` and of LIGGGHTS that are read, or have no effect here.
+constexpr const char* known_columns[] = {
+    "id",      "mol",       "proc",    "procp1",   "type",    "typelabel", "element",     "mass",
+    "x",       "y",         "z",       "xs",       "ys",      "zs",        "xu",          "yu",
+    "zu",      "xsu",       "ysu",     "zsu",      "ix",      "iy",        "iz",          "vx",
+    "vy",      "vz",        "fx",      "fy",       "fz",      "q",         "mux",         "muy",
+    "muz",     "mu",        "radius",  "diameter", "tqx",     "tqy",       "tqz",         "omegax",
+    "omegay",  "omegaz",    "angmomx", "angmomy",  "angmomz", "heatflow",  "temperature", "density",
+    "inertia", "thermostat"};
+
 }  // namespace
+
+std::vector<std::string> unknown_columns(const DumpHeader& grains)
+{
+  std::vector<std::string> unknown;
+  for (const auto& name : grains.columns) {
+    const bool is_computed =
+        std::ranges::any_of(std::array{"c_", "f_", "v_", "i_", "d_", "i2_", "d2_"},
+                            [&](const char* prefix) { return name.starts_with(prefix); });
+    if (!is_computed && std::ranges::find(known_columns, name) == std::end(known_columns))
+      unknown.push_back(name);
+  }
+  return unknown;
+}
 
 void DumpGrains::read(JoinedDumps& dump, ArchiveGrains& grains,
                       const std::vector<std::size_t>& more)

@@ -7,10 +7,15 @@
 
 namespace grseg {
 
+/// The columns of a dump that DumpGrains does not read, and which may say something of
+/// shape, place or force. LAMMPS's other attributes of atoms, and numbers of computes, fixes and
+/// variables, do not.
+std::vector<std::string> unknown_columns(const DumpHeader& grains);
+
 /// Reads blocks of `dump custom` by the column names of LAMMPS and LIGGGHTS: id, type, mass, radius
 /// or diameter; x y z, or unwrapped xu yu zu, or xs ys zs as fractions of the cell; ix iy iz; vx vy
 /// vz; omegax omegay omegaz; fx fy fz. Id and positions are required. A missing component is 0 and
-/// listed in `missing`; other columns are ignored.
+/// listed in `missing`.
 class DumpGrains {
  public:
   /// Reads the rows of the current block of `dump`, and the columns `more` (numbers from 0).

@@ -61,8 +61,8 @@ po::options_description archive_options(ImportSettings& s)
       "meaning of the columns of --wall-contacts; lammps: columns of "
       "fix wall/gran in the grains, floor=f_floor[1]")(
       "map", po::value(&s.files.map)->composing()->value_name("NAME=COLUMN"),
-      "csv only: meaning of columns with other names, e.g. particle1=i,Fx=fx, or by their numbers, "
-      "1=id,2=x; NAME= leaves a column out; row=id: the id is the number of the row")(
+      "NAME= leaves a column of grains out; csv: meaning of columns with other names, e.g. "
+      "particle1=i,Fx=fx, or by their numbers, 1=id,2=x; row=id: the id is the number of the row")(
       "drop-incomplete", po::bool_switch(&s.drop_incomplete),
       "leave out incomplete frames, at the end of a text archive or of a job that was cut off");
   return archive;

@@ -38,7 +38,7 @@ std::vector<Vec3> contact_sums(const ArchiveFrame& frame)
 
 /// Number, number at rest, and diameters of the grains of one type.
 struct OfType {
-  std::size_t count = 0, resting = 0;
+  std::size_t count = 0, resting = 0, moving = 0;
   Range diameters;
 };
 
@@ -50,6 +50,7 @@ std::map<std::int32_t, OfType> types_of(const ArchiveGrains& grains,
     auto& of = types[grains.type[g]];
     ++of.count;
     of.resting += !resting.empty() && resting[g] ? 1 : 0;
+    of.moving += !grains.velocity.empty() && !grains.velocity[g].isZero(0) ? 1 : 0;
     of.diameters.add(2 * grains.radius[g]);
   }
   return types;
@@ -70,7 +71,9 @@ std::string in_words(const ArchiveGrains& grains, const std::vector<bool>& resti
   for (const auto& [type, of] : types) {
     parts.push_back(fmt::format("type {}: {} grain{}, {} wide{}", grains.type_word(type), of.count,
                                 of.count == 1 ? "" : "s", range_in_words(of.diameters),
-                                of.resting == of.count ? ", at rest" : ""));
+                                of.resting < of.count ? ""
+                                : of.moving > 0       ? ", with one velocity"
+                                                      : ", at rest"));
     if (parts.size() < most || types.size() == most) continue;
     parts.push_back(fmt::format("{} types in all", types.size()));
     break;
@@ -99,16 +102,42 @@ std::string ids_at_rest(const ArchiveGrains& grains, const std::vector<bool>& re
 
 }  // namespace
 
+namespace {
+
+/// True for each grain whose velocity, which is not zero, is exactly the one of at least nine
+/// others: grains of a wall that moves as one body, such as a lid.
+std::vector<bool> grains_of_one_velocity(const ArchiveGrains& grains)
+{
+  constexpr std::size_t enough = 10;
+  const auto key = [&](std::size_t g) {
+    const Vec3& v = grains.velocity[g];
+    return std::array{v.x(), v.y(), v.z()};
+  };
+  std::map<std::array<double, 3>, std::size_t> count;
+  std::vector<bool> are(grains.size());
+  if (grains.velocity.empty()) return are;
+  for (std::size_t g = 0; g < grains.size(); ++g) ++count[key(g)];
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    are[g] = !grains.velocity[g].isZero(0) && count[key(g)] >= enough;
+  return are;
+}
+
+}  // namespace
+
 std::vector<bool> resting_grains(const ArchiveGrains& first, const ArchiveGrains* later)
 {
+  const auto as_one = grains_of_one_velocity(first);
+  const auto as_one_later = later == nullptr ? as_one : grains_of_one_velocity(*later);
   const auto row = rows_by_id(later == nullptr ? ArchiveGrains{} : *later);
   std::vector<bool> resting(first.size());
   std::size_t count = 0;
   for (std::size_t g = 0; g < first.size(); ++g) {
     resting[g] = is_at_rest(first, g);
-    if (const auto at = row.find(first.id[g]); resting[g] && at != row.end())
+    const auto at = row.find(first.id[g]);
+    if (resting[g] && at != row.end())
       resting[g] =
           is_at_rest(*later, at->second) && first.position[g] == later->position[at->second];
+    if (as_one[g]) resting[g] = at == row.end() || as_one_later[at->second];
     count += resting[g] ? 1 : 0;
   }
   if (count == first.size()) resting.clear();

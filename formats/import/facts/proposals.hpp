@@ -29,8 +29,8 @@ std::optional<ProposedPeriod> suggested_period(const ArchiveFrame& frame, int ax
 /// The value of --gravity for a vector: "3.8,-9.0,0".
 std::string gravity_option(const Vec3& gravity);
 
-/// True for each grain of `first` that is at rest, also in the `later` frame (may be null). Empty
-/// if all grains are at rest, so that base grains cannot be recognised.
+/// True for each grain of `first` that is at rest, or moves with exactly the velocity of many others
+/// (a lid), also in the `later` frame (may be null). Empty if all grains are, so that base grains cannot be recognised.
 std::vector<bool> resting_grains(const ArchiveGrains& first, const ArchiveGrains* later);
 
 /// Asks which grains are the base; proposes the types (or the ids) of which all grains are at rest.

@@ -75,6 +75,7 @@ const ArchiveFormat lammps_format{
     .open = open_lammps,
     .role = role_of_dump,
     .is_of_program = is_of_lammps,
+    .takes_map = true,
     .takes_wall_columns = true,
     .examples =
         "  grseg-import --format lammps --grains atoms.dump --contacts contacts.dump \\\n"

@@ -313,6 +313,7 @@ const ArchiveFormat liggghts_format{
     .open = open_liggghts,
     .role = role_of_dump,
     .is_of_program = is_of_liggghts,
+    .takes_map = true,
     .takes_wall_contacts = true,
     .takes_wall_columns = true,
     .examples =

@@ -220,12 +220,25 @@ Particle positional_particle(const MercuryLines& lines, const MercuryRestart& re
   return particle;
 }
 
+/// Throws FormatError for a class of particles that is not known to be of single spheres.
+void require_sphere(const MercuryLines& lines)
+{
+  constexpr const char* spheres[] = {"BaseParticle",       "SphericalParticle",
+                                     "ThermalParticle",    "HeatFluidCoupledParticle",
+                                     "LiquidFilmParticle", "LiquidMigrationLSParticle",
+                                     "MeltableParticle"};
+  const auto kind = lines.kind();
+  const bool is_class = kind.find("Particle") != std::string_view::npos || kind == "Clump";
+  if (is_class && std::ranges::find(spheres, kind) == std::end(spheres))
+    lines.fail(fmt::format(
+        "a {} cannot be imported: grains must be single spheres or discs, of the classes {}", kind,
+        fmt::join(spheres, ", ")));
+}
+
 /// Reads a particle. Throws FormatError if it is not a single sphere or belongs to no species.
 void read_particle(MercuryLines& lines, MercuryRestart& restart)
 {
-  if (lines.kind() == "Clump" || lines.kind() == "SuperQuadricParticle")
-    lines.fail(fmt::format("a {} cannot be imported: grains must be single spheres or discs",
-                           lines.kind()));
+  require_sphere(lines);
   auto particle =
       restart.positional > 0 ? positional_particle(lines, restart) : named_particle(lines);
   if (particle.species < 0 || particle.species >= std::ssize(restart.density))

@@ -199,9 +199,13 @@ std::optional<Complaint> Verification::pull(const Frame<3>& frame)
   }
   if (pulling > 0) numbers_.pull = pulling / (pulling + pushing);
   if (numbers_.pull <= waivers_.limit("pull", largest_pull)) return std::nullopt;
+  auto reading = other_readings(frame);
+  if (reading.empty() && 1 - numbers_.pull <= largest_pull)
+    reading =
+        "; with the opposite sign they push: the force seems to be that on j; exchange i and j";
   return Complaint{"pull",
                    fmt::format("contacts pull: {:.0f} % of the normal force is attractive{}",
-                               100 * numbers_.pull, other_readings(frame)),
+                               100 * numbers_.pull, reading),
                    true};
 }
 
@@ -351,6 +355,7 @@ std::optional<Complaint> Verification::balance(const Frame<3>& frame, const Sums
   const auto [defect, scale] = defect_of(frame, sums);
   const Imbalance missing{grains_, box_, frame, defect, tolerance() * scale};
   UnlistedForces cause{other_readings(frame), false};
+  if (cause.sentence.empty()) cause.sentence = late_damping(frame, defect, scale);
   if (cause.sentence.empty()) cause = unlisted_forces(missing);
   if (cause.sentence.empty()) cause.sentence = likely_cause(missing, axes_);
   return Complaint{
@@ -368,6 +373,30 @@ std::optional<Complaint> Verification::balance(const Frame<3>& frame, const Sums
                               : "",
           cause.sentence),
       true, cause.acts_as_weight};
+}
+
+/// Text about late damping if it explains most of the missing forces; "" if it does not, or if the
+/// archive is known to have it.
+std::string Verification::late_damping(const Frame<3>& frame, Forces defect, double scale) const
+{
+  constexpr double most_squares = 0.8;
+  constexpr std::ptrdiff_t enough_grains = 10;  // the fit has two parameters
+  const auto unbalanced = std::ranges::count_if(
+      defect, [&](const Vec3& missing) { return missing.norm() > tolerance() * scale; });
+  if (frame.force.empty() || accuracy_.late_forces || unbalanced < enough_grains) return "";
+  const auto squares = [&] {
+    double sum = 0;
+    for (std::size_t g = 0; g < defect.size(); ++g)
+      if (is_mobile(grains_, frame, g)) sum += defect[g].squaredNorm();
+    return sum;
+  };
+  const double before = squares();
+  subtract_late_damping(grains_, frame, accuracy_.step, accuracy_.inertia, defect);
+  if (squares() > (1 - most_squares) * before) return "";
+  return fmt::format(
+      "; contact forces whose damping is evaluated half a step late, as LAMMPS and LIGGGHTS write "
+      "them, explain all but {:.2g} of it",
+      residual_of(grains_, defect, scale).largest);
 }
 
 /// Text about another meaning of the rows with which grains balance; "" if there is none.

@@ -104,6 +104,7 @@ class Verification {
   void judge_by_velocities(const Frame<3>& frame, const Sums& sums, const Forces& defect,
                            double scale, Residual& residual) const;
   std::string other_readings(const Frame<3>& frame) const;
+  std::string late_damping(const Frame<3>& frame, Forces defect, double scale) const;
   std::optional<Complaint> balance(const Frame<3>& frame, const Sums& sums);
   std::string pair_of(std::int32_t i, std::int32_t j) const;
   double tolerance() const { return waivers_.limit("balance", accuracy_.tolerance); }

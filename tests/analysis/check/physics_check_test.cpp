@@ -313,6 +313,7 @@ TEST_F(CheckedColumn, OfAnotherProgramHasPositionsAndVelocitiesOfOneInstant)
 {
   Column column({9, -weight}, 9);
   column.description.parameters.texts["import_format"] = "lammps";
+  column.description.parameters.texts["import_images"] = "known";
   for (auto& frame : column.frames)
     for (std::size_t g = 1; g <= discs; ++g) frame.velocity[g].x() = 9 * frame.time;
   EXPECT_NEAR(measured("x_drift", lines_of(column)), 0, 1e-12);

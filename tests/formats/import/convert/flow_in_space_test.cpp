@@ -220,7 +220,7 @@ TEST_F(FlowInSpace, MissingComponentsAreNamed)
 TEST_F(FlowInSpace, WithoutSpinsIsImportedWithoutThem)
 {
   auto settings = lammps(folder, views()[0]);
-  replace(settings, "omegax omegay omegaz", "a b c");
+  replace(settings, "omegax omegay omegaz", "v_a v_b v_c");
   EXPECT_EQ(frame_of(settings).angular_velocity[1], Vec3(0, 0, 0));
 }
 

@@ -28,9 +28,11 @@ class PeriodsOfAnArchive : public testing::Test {
   }
   std::string images_of(const std::string& first, const std::string& second)
   {
-    const auto s = settings(folder, first + second, contacts_at(0) + contacts_at(100));
+    auto s = settings(folder, first + second, contacts_at(0) + contacts_at(100));
+    if (first.find("BOUNDS ff") != std::string::npos) s.cells = {"x:0.045:0.055"};
     import_archive(s, "");
     const TrajectoryReader run(s.output);
+    EXPECT_EQ(run.has_images(), run.parameters().text("import_images") != "unknown");
     run.read(1, frame, {.velocity = false, .contacts = false, .force = true});
     return run.parameters().text("import_images");
   }

@@ -109,6 +109,7 @@ TEST_F(Walls, InACornerEachWallPushesAlongItsNormal)
 {
   auto s = two_discs(0.095, "ff ff pp");
   s.walls = {"floor=y:0", "right=x:0.1"};
+  s.cells = {"x:0:0.1"};
   const auto report = import_archive(s, "");
   const auto frame = frame_of<2>(s, 0);
   ASSERT_EQ(frame.contacts.size(), 3u);
@@ -123,6 +124,7 @@ TEST_F(Walls, InACornerEachWallPushesAlongItsNormal)
 TEST_F(Walls, OneThatWouldPullGetsNothingBesideOneThatPushes)
 {
   auto s = two_discs(0.005, "ff ff pp");
+  s.cells = {"x:0:0.1"};
   s.walls = {"floor=y:0", "left=x:0"};  // this wall is down the slope, away from the discs
   import_archive(s, "");
   const auto frame = frame_of<2>(s, 0);
@@ -192,7 +194,7 @@ TEST_F(Walls, AreRefusedWithASentenceWhereTheyCannotBe)
   EXPECT_TRUE(mentions(sentence({"a=y:0", "a=y:1"}), "a (y = 0) and a (y = 1)"));
   EXPECT_TRUE(mentions(sentence({"floor=y:0", "left=x:0"}),
                        "--wall left (x = 0): the cell is periodic along x"));
-  auto s = two_discs(0.05, "pp ff pp", "id type mass radius x y vx vy omegaz ax ay");
+  auto s = two_discs(0.05, "pp ff pp", "id type mass radius x y vx vy omegaz v_ax v_ay");
   s.files.columns = "i=2,j=3,dist=4,force=5,tangential=8";
   s.walls = {"floor=y:0"};
   EXPECT_TRUE(mentions(refusal(s).sentence, "the archive has no forces on grains"));
@@ -286,6 +288,7 @@ TEST_F(WallsOfTrueArchives, OfAHopperAreRowsThatCarryTheWeightWhileTheLidIsClose
   s.files.columns = "pos,id,force,delta";
   s.files.wall_contacts = {inputs + "liggghts/hopper-walls.dump.zst"};
   s.origin = "0";
+  s.cells = {"x:-0.03:0.03"};
   import_archive(s, "");
   const TrajectoryReader run(s.output);
   const auto at_rest = frame_of<3>(s, 10);  // step 80000

@@ -36,7 +36,7 @@ std::string without_masses(const Folder& folder, const std::string& path)
 {
   auto text = read(path);
   for (auto place = text.find(" mass "); place != std::string::npos; place = text.find(" mass "))
-    text.replace(place, 6, " matter ");
+    text.replace(place, 6, " v_mass ");
   return folder.write("atoms.dump", text);
 }
 

@@ -220,7 +220,7 @@ TEST_F(CsvPerStep, TimesAndStepsDoNotMatchAndNamesWithoutEitherAreRefused)
       complaint_of(named("g1.csv", "c.csv")).find("has times, but the table of grains has steps"),
       std::string::npos)
       << complaint_of(named("g1.csv", "c.csv"));
-  EXPECT_NE(complaint_of(named("grains.csv", "c.csv")).find("no column time or step among"),
+  EXPECT_NE(complaint_of(named("grains.csv", "c.csv")).find("no column time among"),
             std::string::npos);
 }
 
@@ -329,15 +329,32 @@ TEST_F(Csv, CommentsAboveTheNamesStateFactsOfTheRun)
     EXPECT_THROW(open(line), FormatError) << line;
 }
 
-TEST_F(Csv, AColumnThatIsMissingIsAskedForByMap)
+TEST_F(Csv, ColumnsThatAreMissingAreNamedInOneAnswer)
 {
-  EXPECT_NE(
-      complaint("time,id,x,y,vx\n", contact_table).find("no column vy among 'time id x y vx'"),
-      std::string::npos)
-      << complaint("time,id,x,y,vx\n", contact_table);
-  EXPECT_NE(complaint(grain_table, "time,a,j,fx,fy\n")
-                .find("no column i or id1 among 'time a j fx fy'"
-                      "; name the column with --map NAME=i"),
+  const auto sentence = complaint("time,pos.x,radius\n", "time,end1,j\n");
+  for (const char* part :
+       {"grains.csv, line 1: no columns id, x, vx, y, vy among 'time pos.x radius'",
+        "--map NAME=id,NAME=x,NAME=vx,NAME=y,NAME=vy names them", "row=id",
+        "contacts.csv, line 1: no columns i, fx, fy among 'time end1 j'"})
+    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  EXPECT_NE(complaint("time,id,x,y,vx\n", contact_table).find("no column vy among"),
+            std::string::npos);
+}
+
+TEST_F(Csv, ColumnsWithoutAKnownMeaningAreAskedFor)
+{
+  const auto grains = with(with(grain_table, "omega\n", "omega,pos.z\n"), "-3\n", "-3,0\n");
+  const auto frames = read(with(grains, "0,0,0\n", "0,0,0,0\n"), contact_table);
+  ASSERT_EQ(frames[0].questions.size(), 1u);
+  EXPECT_EQ(frames[0].questions[0].option, "--map pos.z=");
+  EXPECT_TRUE(frames[1].questions.empty());
+}
+
+TEST_F(Csv, ColumnsOfOtherShapesAreRefused)
+{
+  const auto grains = with(with(grain_table, "omega\n", "omega,ShapeX\n"), "-3\n", "-3,1\n");
+  EXPECT_NE(complaint(with(grains, "0,0,0\n", "0,0,0,1\n"), contact_table)
+                .find("single discs or spheres, and the table has ShapeX"),
             std::string::npos);
 }
 

@@ -114,6 +114,24 @@ TEST(Proposals, TheBaseIsWhatNeverMovesWhileOtherGrainsDo)
   EXPECT_EQ(question.option, "--boundary none");
 }
 
+TEST(Proposals, ALidThatMovesAsOneBodyIsNotOfTheFlow)
+{
+  auto grains = column({0, 0, 0}).grains;
+  for (int k = 0; k < 10; ++k) {
+    grains.id.push_back(100 + k);
+    grains.type.push_back(7);
+    grains.radius.push_back(0.5);
+    grains.position.emplace_back(k, 9, 0);
+    grains.velocity.emplace_back(0.25, 0, 0);
+  }
+  const auto question = question_of_base(grains, resting_grains(grains, nullptr));
+  EXPECT_EQ(question.option, "--boundary 3,7");
+  EXPECT_NE(question.reason.find("type 7: 10 grains, 1 wide, with one velocity"),
+            std::string::npos);
+  grains.velocity.back().x() = 0.26;
+  EXPECT_EQ(question_of_base(grains, resting_grains(grains, nullptr)).option, "--boundary 3");
+}
+
 TEST(Proposals, TheBaseIsNotKnownWhereNothingMoves)
 {
   auto grains = column({0, 0, 0}).grains;

@@ -263,6 +263,46 @@ TEST(Verification, DampingEvaluatedHalfAStepLateIsFoundAndExplainsTheMissingForc
   EXPECT_TRUE(verification.check(scene.frame)) << "damping does not drive";
 }
 
+// Twelve discs on base discs, accelerated by 1 to 12. Forces that are damped half a step late are told
+// as such, though forces between the discs and their neighbours would balance them, too.
+TEST(Verification, DampingOfAProgramThatIsNotKnownForItIsNamedBeforeOtherForces)
+{
+  Scene scene;
+  scene.grains = {};
+  scene.frame = {};
+  scene.box.length_x = 100;
+  auto& [grains, box, gravity, frame] = scene;
+  for (int k = 1; k <= 12; ++k) {
+    const double x = 2.01 * k, m = 3;
+    grains.id.insert(grains.id.end(), {2 * k, 2 * k + 1});
+    grains.species.insert(grains.species.end(), {Species::large, Species::boundary});
+    grains.radius.insert(grains.radius.end(), {1, 1});
+    grains.mass.insert(grains.mass.end(), {m, m});
+    grains.fixed.insert(grains.fixed.end(), {0, 1});
+    frame.position.insert(frame.position.end(), {{x, 2, 0}, {x, 0, 0}});
+    frame.force.insert(frame.force.end(), {{0, m * k, 0}, {0, 0, 0}});
+    frame.contacts.i.push_back(2 * k - 2);
+    frame.contacts.j.push_back(2 * k - 1);
+    frame.contacts.force.emplace_back(0, m * (10 + k) - 7 * m * k * 0.05, 0);
+    frame.contacts.branch.emplace_back(0, 2, 0);
+    frame.contacts.gap.push_back(0);
+  }
+  frame.velocity.assign(24, Vec3::Zero());
+  frame.angular_velocity.assign(24, Vec3::Zero());
+  Verification verification(grains, box, gravity, OutputAccuracy{1e-4, false, 0.1, 0.5});
+  const auto complaint = verification.check(frame);
+  ASSERT_TRUE(complaint);
+  EXPECT_TRUE(mentions(complaint->sentence, "damping is evaluated half a step late"));
+}
+
+TEST(Verification, ForcesThatAllPullAreTakenForTheOnesOnTheOtherGrain)
+{
+  Scene scene;
+  scene.frame.force.clear();
+  scene.frame.contacts.force[0] *= -1;
+  EXPECT_TRUE(mentions(scene.complaint(), "exchange i and j"));
+}
+
 // Without forces on grains: a fall from rest has v = g t, and the held grain stays at rest.
 TEST(Verification, WithoutForcesVelocitiesOfTwoStepsAreUsed)
 {
