@@ -43,18 +43,23 @@ class ColumnTrial {
   /// The residual of balance() with these columns; empty if a column cannot have its meaning.
   std::optional<double> residual(const std::string& columns)
   {
-    try {
-      ContactColumns map(dialect_.mapping(columns, header_));
-      map.look_up(header_.columns, header_.place);
-      std::vector<std::vector<double>> values;
-      for (const auto column : map.wanted()) values.push_back(rows_[column]);
-      map.fill(values, header_.place, contacts_);
-    } catch (const Interruption&) {
-      throw;
-    } catch (const ToolError&) {
-      return std::nullopt;
+    return read(columns) ? balance() : std::nullopt;
+  }
+  /// True if with these columns each row names two grains of the frame that are near enough to touch.
+  bool joins_neighbours(const std::string& columns, const ArchiveFrame& frame)
+  {
+    constexpr double near = 1.2;  // times the sum of the radii
+    if (!read(columns) || grains_.radius.empty()) return false;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (contacts_.at_wall(c)) continue;
+      const auto i = row_of_.find(contacts_.i[c]), j = row_of_.find(contacts_.j[c]);
+      if (i == row_of_.end() || j == row_of_.end()) return false;
+      const Vec3 between = grains_.position[i->second] - grains_.position[j->second];
+      if (frame.minimum_image(between).norm() >
+          near * (grains_.radius[i->second] + grains_.radius[j->second]))
+        return false;
     }
-    return balance();
+    return contacts_.size() > 0;
   }
   /// The columns with the smallest residual; empty if it exceeds the tolerance of the format.
   std::optional<ColumnFit> best()
@@ -70,6 +75,23 @@ class ColumnTrial {
   }
 
  private:
+  /// Reads the rows with these columns; false if a column cannot have its meaning.
+  bool read(const std::string& columns)
+  {
+    try {
+      ContactColumns map(dialect_.mapping(columns, header_));
+      map.look_up(header_.columns, header_.place);
+      std::vector<std::vector<double>> values;
+      for (const auto column : map.wanted()) values.push_back(rows_[column]);
+      map.fill(values, header_.place, contacts_);
+    } catch (const Interruption&) {
+      throw;
+    } catch (const ToolError&) {
+      return false;
+    }
+    return true;
+  }
+
   /// Residual of Newton's law, | F - sum of contact forces - m g |, relative to the median of the
   /// grains' largest contact forces. It is the median over moving grains with contacts (over all
   /// grains if none moves), because some grains may touch walls. If g is itself a median, it makes
@@ -275,20 +297,40 @@ class DumpArchive : public Archive {
     columns_text_ = dialect_.assumed(header, frame.grains);
     const auto fit = fitting_columns(std::nullopt);
     if (!fit && !columns_text_.empty()) return;
-    const auto others = dialect_.others(header);
+    const auto others = fit ? std::vector<std::string>() : columns_of_neighbours(header, frame);
     if (fit)
       columns_text_ = fit->columns;
     else if (others.size() == 1 && others[0].find('=') == std::string::npos)
-      columns_text_ = others[0];  // only one list of keywords has this number of columns
+      columns_text_ = others[0];
     const auto why =
         fit ? fmt::format(
                   "with these the forces on grains balance to within {:.2g} of a contact force",
                   fit->residual)
-            : fmt::format("as in {}", dialect_.example);
+        : columns_text_.empty()
+            ? fmt::format("as in {}", dialect_.example)
+            : "alone of all known lists these have this number of columns and join grains that touch";
     frame.questions.push_back(
         {fmt::format("the meaning of the {} columns of {}", header.columns.size(), header.place),
          "--columns " + (columns_text_.empty() ? "MAP" : columns_text_),
          fmt::format("they are {}; {}", fmt::join(header.columns, " "), why)});
+  }
+
+  /// The values of --columns that fit the header and join grains that touch in the first frame
+  /// with contacts.
+  std::vector<std::string> columns_of_neighbours(const DumpHeader& header,
+                                                 const ArchiveFrame& frame) const
+  try {
+    auto all = dialect_.others(header);
+    DumpPair dumps(grain_files_, contact_files_);
+    do {
+      if (!dumps.next()) return {};
+    } while (dumps.contacts().header().rows == 0);
+    ColumnTrial trial(dumps, dialect_, std::nullopt);
+    std::erase_if(all,
+                  [&](const auto& columns) { return !trial.joins_neighbours(columns, frame); });
+    return all;
+  } catch (const FormatError&) {  // a column contains words, or the file is damaged
+    return {};
   }
 
   const DumpDialect& dialect_;
