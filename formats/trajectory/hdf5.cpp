@@ -90,6 +90,7 @@ void silence()
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5Lunregister(H5L_TYPE_EXTERNAL);
+  H5Pset_obj_track_times(H5P_GROUP_CREATE_DEFAULT, 0);
 }
 
 Properties newest_format()
