@@ -8,6 +8,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/core/frame.hpp"
+#include "formats/core/memory.hpp"
 #include "formats/core/species.hpp"
 #include "formats/core/text.hpp"
 #include "formats/export/map_file.hpp"

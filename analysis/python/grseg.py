@@ -22,6 +22,7 @@ A file that is damaged, unfinished or not made by grseg raises grseg.Error, a wr
 """
 import collections
 import dataclasses
+import errno
 import functools
 import inspect
 import itertools
@@ -215,12 +216,22 @@ class Run:
         has_writer = head[:9] == b"\x89HDF\r\n\x1a\n\x03" and head[11:] != b"" and head[11] & 5 == 5
         if has_writer and not unfinished:
             self._fail(_UNFINISHED)
-        try:
-            return h5py.File(self.path, "r", swmr=has_writer)
-        except _OF_DAMAGE as error:
-            if "unable to lock" in str(error):
+        for locking in (None, False):  # many file systems of clusters have no locks, and reading needs none
+            try:
+                return h5py.File(self.path, "r", swmr=has_writer, locking=locking)
+            except _OF_DAMAGE as error:
+                refusal = error
+            if getattr(refusal, "errno", None) == errno.EWOULDBLOCK:
                 self._fail("is being written by a run; wait until it has ended, or read a copy")
-            return self._fail("is not an HDF5 file, or is truncated or damaged; use an intact copy")
+        self._fail_of_system(refusal)
+        return self._fail("is not an HDF5 file, or is truncated or damaged; use an intact copy")
+
+    def _fail_of_system(self, error):
+        """Fails with the system's reason if `error` has one: then the file is not damaged."""
+        if isinstance(error, MemoryError):
+            self._fail("needs more memory than is free, unless grseg-check --deep finds damage; use a shorter window")
+        if getattr(error, "errno", None):
+            self._fail(f"cannot be read: {os.strerror(error.errno)}")
 
     def _dataset(self, path, rank, kinds="f"):
         """The dataset at `path`. Fails unless it has `rank` dimensions and one of numpy's type `kinds`."""
@@ -241,7 +252,8 @@ class Run:
             if path not in self._datasets:
                 self._datasets[path] = self._file[path]
             rows = self._datasets[path][first:last]
-        except _OF_DAMAGE:
+        except _OF_DAMAGE as error:
+            self._fail_of_system(error)
             rows = ()
         if len(rows) != last - first:
             self._fail(f"/{path}: rows {first} to {last - 1} cannot be read: the file is damaged; use an "

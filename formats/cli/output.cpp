@@ -61,19 +61,30 @@ bool TableOptions::prints_short() const
   return short_form || (path.empty() && isatty(STDOUT_FILENO) == 1);
 }
 
-Output::Output(std::string path, bool overwrite, const std::vector<std::string>& inputs)
-    : path_(std::move(path)), overwrite_(overwrite), temporary_(temporary_path(path_))
+namespace {
+
+std::string checked(const std::string& path, bool overwrite, const std::vector<std::string>& inputs)
 {
-  check_output(path_, overwrite, inputs);
+  check_output(path, overwrite, inputs);
+  return behind_links(path);
+}
+
+}  // namespace
+
+Output::Output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs)
+    : path_(checked(path, overwrite, inputs)),
+      overwrite_(overwrite),
+      temporary_(new_temporary(path_))
+{
 }
 
 void write_whole(const OutputOptions& output, std::string_view text)
 {
-  const auto& path = output.path;
   if (output.is_standard_output()) {
     std::cout << text;
     return;
   }
+  const auto path = behind_links(output.path);
   if (is_device(path)) return write_file(path, text, path);
   const RemoveAtEnd temporary(temporary_path(path));
   write_file(temporary.path(), text, path);
@@ -101,10 +112,11 @@ struct GrowingTable::Digest {
 };
 
 GrowingTable::GrowingTable(OutputOptions output)
-    : output_(std::move(output)),
-      temporary_(output_.is_standard_output() ? "" : temporary_path(output_.path)),
-      digest_(std::make_unique<Digest>())
+    : output_(std::move(output)), digest_(std::make_unique<Digest>())
 {
+  if (output_.is_standard_output()) return;
+  output_.path = behind_links(output_.path);
+  temporary_.emplace(new_temporary(output_.path));
 }
 
 GrowingTable::~GrowingTable() = default;
@@ -129,16 +141,15 @@ void GrowingTable::finish(Table rest)
 {
   add(rest);
   write(end_line(rows_, XXH3_64bits_digest(digest_->state)) + '\n');
-  if (!output_.is_standard_output())
-    publish_file(temporary_.path(), output_.path, output_.overwrite);
+  if (temporary_) publish_file(temporary_->path(), output_.path, output_.overwrite);
 }
 
 void GrowingTable::write(const std::string& text)
 {
-  if (output_.is_standard_output())
-    std::cout << text;
+  if (temporary_)
+    append_to_file(temporary_->path(), text, output_.path);
   else
-    append_to_file(temporary_.path(), text, output_.path);
+    std::cout << text;
 }
 
 }  // namespace grseg

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,7 +52,7 @@ class Output {
  public:
   /// Throws the errors of check_output() if `path` may not be the output of a program with these
   /// `inputs`.
-  Output(std::string path, bool overwrite, const std::vector<std::string>& inputs);
+  Output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
 
   const std::string& temporary() const { return temporary_.path(); }
   /// Call it after everything has been written and closed. Throws RunError if the system fails, or
@@ -97,7 +98,7 @@ class GrowingTable {
   void write(const std::string& text);
 
   OutputOptions output_;
-  RemoveAtEnd temporary_;
+  std::optional<RemoveAtEnd> temporary_;  // none: standard output
   std::unique_ptr<Digest> digest_;
   std::size_t rows_ = 0;
 };

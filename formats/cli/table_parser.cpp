@@ -194,6 +194,7 @@ Table Table::read(const std::string& path, const WantedTables* wanted)
   if (path == "-") return parse(all_of(std::cin), "standard input", wanted);
   require_file(path);
   std::ifstream file(path, std::ios::binary);
+  if (!file) throw RunError(fmt::format("{}: cannot be opened: {}", path, reason(errno)));
   return parse(all_of(file), path, wanted);
 }
 

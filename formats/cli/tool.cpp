@@ -4,6 +4,7 @@
 #include "citation.hpp"
 #include "formats/cli/columns.hpp"
 #include "formats/cli/words.hpp"
+#include "formats/core/files.hpp"
 #include "formats/core/text.hpp"
 #include "formats/core/version.hpp"
 
@@ -150,7 +151,8 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
       body(values);
     }
     std::cout.flush();
-    if (!std::cout) throw RunError("cannot write to standard output");
+    if (!std::cout)
+      throw RunError(fmt::format("cannot write to standard output: {}", reason(errno)));
     return exit_done;
   } catch (const ToolError& error) {
     print_error(info, error);

@@ -12,11 +12,8 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,19 +30,42 @@ void flush(const std::string& path, int (*synchronise)(int))
 }
 
 /// Renames `from` unless `to` exists; returns 0 or an errno. If the file system cannot do this in
-/// one call (renameat2), adds a hard link and removes the old name.
+/// one call (renameat2), adds a hard link and removes the old name. If it has no links either, an
+/// empty file claims the name.
 int rename_unless_taken(const std::string& from, const std::string& to)
 {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS) return errno;
+  if (errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP) return errno;
   std::error_code ignored;
   if (std::filesystem::is_directory(from, ignored)) {  // folders cannot have hard links
     if (is_taken(to)) return EEXIST;
-    return rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+  } else if (link(from.c_str(), to.c_str()) == 0) {
+    unlink(from.c_str());
+    return 0;
+  } else {
+    const int claim = open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (claim < 0) return errno;
+    close(claim);
   }
-  if (link(from.c_str(), to.c_str()) != 0) return errno;
-  unlink(from.c_str());
-  return 0;
+  return rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+/// Throws RunError unless a file beside `path` can be created, opened again and renamed, as it is
+/// when the work is done.
+void try_to_publish(const std::string& path)
+{
+  const RemoveAtEnd before(temporary_path(path) + "a"), after(temporary_path(path) + "b");
+  for (const char* question : {"", "; is the umask too strict?"}) {
+    const int file = open(before.path().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+      throw RunError(fmt::format("cannot create {}: {}{}", path, reason(errno), question));
+    close(file);
+  }
+  if (rename(before.path().c_str(), after.path().c_str()) != 0)
+    throw RunError(fmt::format(
+        "cannot create {}: its file system renames no files ({}); name an output on another one, "
+        "and copy it",
+        path, reason(errno)));
 }
 
 /// True if `digits` is the number of a process that has ended, or of this process.
@@ -74,13 +94,21 @@ bool lies_in(const std::string& path, const std::string& folder)
 
 void require_file(const std::string& path)
 {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0 && (errno == ENOENT || errno == ENOTDIR))
     throw UsageError(fmt::format("{}: no such file", path));
-  if (std::filesystem::is_directory(path, error))
-    throw UsageError(fmt::format("{}: is a folder, not a file", path));
+  if (S_ISDIR(found.st_mode)) throw UsageError(fmt::format("{}: is a folder, not a file", path));
   if (access(path.c_str(), R_OK) != 0)
     throw UsageError(fmt::format("{}: cannot be read: {}", path, reason(errno)));
+}
+
+void require_seekable(const std::string& path)
+{
+  require_file(path);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw UsageError(fmt::format(
+        "{}: is a pipe or a device, which can be read only once; write it to a file first", path));
 }
 
 std::string already_exists(const std::string& path)
@@ -93,6 +121,17 @@ bool is_taken(const std::string& path)
 {
   std::error_code error;
   return std::filesystem::exists(std::filesystem::symlink_status(path, error));
+}
+
+std::string behind_links(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  constexpr int most = 40;  // as many as the kernel follows
+  fs::path target = path;
+  std::error_code error;
+  for (int k = 0; k < most && !is_device(path) && fs::is_symlink(target, error); ++k)
+    target = target.parent_path() / fs::read_symlink(target, error);
+  return target.string();
 }
 
 bool same_file(const std::string& a, const std::string& b)
@@ -137,21 +176,58 @@ void check_output(const std::string& path, bool overwrite, const std::vector<std
     throw UsageError(fmt::format("{} is a folder; name a file inside it", path));
   if (is_device(path)) throw UsageError(fmt::format("{} is a device or a pipe; name a file", path));
   refuse_input_as_output(path, inputs);
-  if (!overwrite && is_taken(path)) throw UsageError(already_exists(path));
-  const auto folder = std::filesystem::path(path).parent_path();
-  if (access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
-    throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
+  const auto target = behind_links(path);
+  if (!overwrite && is_taken(path))
+    throw UsageError(is_taken(target)
+                         ? already_exists(path)
+                         : fmt::format("{} is a link to {}, which does not exist; choose another "
+                                       "name, remove it, or pass --overwrite to write there",
+                                       path, target));
+  try_to_publish(target);
 }
 
 std::string reason(int error)
 {
-  const std::string words = std::strerror(error);
-  return error == EFBIG ? words + "; is there a limit (ulimit -f, quota)?" : words;
+  constexpr int no_locks = 524;  // ENOTSUPP of the kernel, which Lustre and DVS return
+  struct Remedy {
+    int error;
+    const char* text;
+  };
+  constexpr Remedy remedies[] = {
+      {EFBIG, "is there a limit (ulimit -f, quota)?"},
+      {EMFILE, "raise the limit (ulimit -n)"},
+      {ENFILE, "close other programs"},
+      {ENOMEM, "is there a limit (ulimit -v, cgroup)?"},
+      {ENOLCK, "set HDF5_USE_FILE_LOCKING=FALSE"},
+      {no_locks, "set HDF5_USE_FILE_LOCKING=FALSE"},
+      {EIO, "does its disk or file server still work?"},
+      {ESTALE, "mount its file system again"},
+      {ENOTCONN, "mount its file system again"},
+      {EHOSTDOWN, "does its file server still work?"},
+      {ETIMEDOUT, "does its file server still work?"},
+  };
+  const std::string words = std::strerror(error == no_locks ? ENOLCK : error);
+  for (const auto& [known, text] : remedies)
+    if (known == error) return words + "; " + text;
+  return words;
 }
 
 std::string temporary_path(const std::string& path)
 {
   return fmt::format("{}.tmp.{}", path, getpid());
+}
+
+std::string new_temporary(const std::string& path)
+{
+  auto name = temporary_path(path);
+  const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0 && errno == EEXIST)
+    throw RunError(fmt::format(
+        "{} is being written by another process, says {}; if that one is dead, remove this file",
+        path, name));
+  if (file < 0) throw RunError(fmt::format("cannot create {}: {}", path, reason(errno)));
+  close(file);
+  return name;
 }
 
 void remove_temporaries(const std::string& path)
@@ -256,14 +332,6 @@ RemoveAtEnd::~RemoveAtEnd()
   std::error_code ignored;
   if (condition_ == If::there || std::filesystem::file_size(path_, ignored) == 0)
     std::filesystem::remove(path_, ignored);
-}
-
-double free_memory()
-{
-  std::ifstream lines("/proc/meminfo");
-  for (std::string name, rest; lines >> name && std::getline(lines, rest);)
-    if (name == "MemAvailable:") return 1024 * std::strtod(rest.c_str(), nullptr);
-  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace grseg

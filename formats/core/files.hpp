@@ -13,11 +13,18 @@ namespace grseg {
 /// Throws UsageError unless `path` is a readable file.
 void require_file(const std::string& path);
 
+/// Throws UsageError unless `path` is a readable file that can be read several times.
+void require_seekable(const std::string& path);
+
 /// Error message for an output that exists and may not be replaced.
 std::string already_exists(const std::string& path);
 
 /// True if a file, folder or link has this name, even a broken symbolic link.
 bool is_taken(const std::string& path);
+
+/// The file or the free name to which the symbolic link `path` leads; `path` itself if it is none,
+/// or a device.
+std::string behind_links(const std::string& path);
 
 /// True if both names refer to one file or folder.
 bool same_file(const std::string& a, const std::string& b);
@@ -31,15 +38,18 @@ void refuse_input_as_output(const std::string& output, const std::vector<std::st
 
 /// Checks, before a program begins to work, that it may write `path`. Throws UsageError if `path`
 /// is one of `inputs` (also with `overwrite`), a folder, a device or a pipe, or if `path` exists
-/// and `overwrite` is false. Throws RunError if the folder of `path` is missing or not writable.
+/// and `overwrite` is false. Throws RunError unless a file can be created beside `path` and renamed.
 void check_output(const std::string& path, bool overwrite, const std::vector<std::string>& inputs);
 
-/// The system's message for the errno `error`; for "File too large" (EFBIG) a question about
-/// limits follows.
+/// The system's message for the errno `error`; a remedy follows if one is known.
 std::string reason(int error);
 
 /// Temporary name PATH.tmp.PROCESS, which no other program uses.
 std::string temporary_path(const std::string& path);
+
+/// Creates an empty file named temporary_path(path). Throws RunError if it exists: a process of
+/// another computer or container has the same number.
+std::string new_temporary(const std::string& path);
 
 /// Removes the files that processes which have ended left as temporary_path(path). Only the one
 /// writer of `path` (OutputLock) may call it, before it writes: the processes of other computers
@@ -96,9 +106,5 @@ class RemoveAtEnd {
   std::string path_;
   If condition_;
 };
-
-/// Memory that is still available on this machine, bytes (MemAvailable of /proc/meminfo); infinity
-/// if it is unknown.
-double free_memory();
 
 }  // namespace grseg

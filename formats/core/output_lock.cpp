@@ -119,9 +119,10 @@ void remove_dead_lock(const std::string& path, const std::string& lock)
   unlink(lock.c_str());
 }
 
+/// Whatever else the system says (ENOLCK, EOPNOTSUPP, 524 of Lustre), the file system has no locks.
 bool has_no_locks(int error)
 {
-  return error == ENOSYS || error == EOPNOTSUPP || error == ENOLCK;
+  return error != 0 && error != EWOULDBLOCK;
 }
 
 }  // namespace
@@ -159,10 +160,7 @@ bool OutputLock::take(const std::string& path, int (*lock)(int file))
   if (has_no_locks(error) && created) return true;  // O_EXCL: only this process can have created it
   close(file_);
   if (error == EWOULDBLOCK) refuse(path, Owner::in(path_));
-  if (has_no_locks(error))
-    remove_dead_lock(path, path_);
-  else if (error != 0)
-    throw RunError(fmt::format("cannot lock {}: {}", path_, reason(error)));
+  if (has_no_locks(error)) remove_dead_lock(path, path_);
   return false;
 }
 

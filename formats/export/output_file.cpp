@@ -33,7 +33,6 @@ OutputFile::OutputFile(const std::string& path, bool overwrite,
                        const std::vector<std::string>& inputs)
     : name_(path), output_(path, overwrite, inputs)
 {
-  write_file(output_.temporary(), "", name_);
   if (!path.ends_with(".gz")) return;
   packer_ = std::make_unique<Packer>();
   io::zlib_params gzip(io::zlib::best_speed);  // higher levels: slower, and digits hardly shrink

@@ -5,10 +5,7 @@
 #include "formats/core/files.hpp"
 #include "formats/trajectory/file_kind.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -52,28 +49,65 @@ void make_parents(hid_t file, const std::string& path)
   if (slash != std::string::npos && slash > 0) make_group(file, path.substr(0, slash));
 }
 
-/// True if, according to the superblock (HDF5 File Format Specification, II.A), a writer has the
-/// file open in SWMR mode, or was killed in that state.
-bool has_swmr_writer(const std::string& path)
+/// Marks of a writer in the superblock (HDF5 File Format Specification, II.A): one has the file open,
+/// perhaps in SWMR mode, or was killed in that state.
+struct Writer {
+  bool any = false, swmr = false;
+};
+
+Writer writer_of(const std::string& path)
 {
   constexpr char signature[] = "\x89HDF\r\n\x1a\n";
   constexpr std::size_t version = 8, flags = 11;
   constexpr char write_access = 1, swmr_access = 4;
   char bytes[12] = {};
   std::ifstream(path, std::ios::binary).read(bytes, sizeof bytes);
-  return std::equal(signature, signature + 8, bytes) && bytes[version] == 3 &&
-         (bytes[flags] & write_access) != 0 && (bytes[flags] & swmr_access) != 0;
+  if (!std::equal(signature, signature + 8, bytes) || bytes[version] != 3) return {};
+  const bool any = (bytes[flags] & write_access) != 0;
+  return {any, any && (bytes[flags] & swmr_access) != 0};
 }
 
-/// Reason why a file does not open: it is damaged, or a running simulation has HDF5's lock on it.
-std::string why_it_does_not_open(const std::string& path)
+/// Finds the errno in an entry of HDF5's error stack, which contains it only as part of a text. EINVAL
+/// is none of the system's troubles: the file names an impossible place.
+herr_t find_errno(unsigned, const H5E_error2_t* entry, void* found)
 {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (file >= 0) close(file);
-  if (locked) return "is being written by a run; wait until the run has ended, or read a copy";
-  return kind_of_file(path).instead_of("a run (HDF5)",
-                                       "is not an HDF5 file, or is truncated or damaged");
+  const char* place = entry->desc == nullptr ? nullptr : std::strstr(entry->desc, "errno = ");
+  int error = 0;
+  if (place != nullptr && std::sscanf(place, "errno = %d", &error) == 1 && error != 0 &&
+      error != EINVAL)
+    *static_cast<int*>(found) = error;
+  return 0;
+}
+
+int last_system_error = 0;  // errno of the last call that the system let fail since an opening
+
+herr_t remember_errno(hid_t stack, void*)
+{
+  return H5Ewalk2(stack, H5E_WALK_UPWARD, find_errno, &last_system_error);
+}
+
+/// The system's error by which the last call of the library failed; 0: it failed for another reason.
+int error_of_failure()
+{
+  int error = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &error);
+  return error;
+}
+
+/// Throws the reason why HDF5 does not open a file, after its last call.
+[[noreturn]] void refuse(const std::string& path, Writer writer)
+{
+  const int error = error_of_failure();
+  if (error != 0 && error != EWOULDBLOCK)
+    throw RunError(fmt::format("{}: cannot be opened: {}", path, reason(error)));
+  last_system_error = 0;
+  const char* why = "is not an HDF5 file, or is truncated or damaged";
+  if (error == EWOULDBLOCK)
+    why = "is being written by a run; wait until the run has ended, or read a copy";
+  else if (writer.any && !writer.swmr)
+    why = "is being written, or its writer was killed; wait until it has ended, or write it again";
+  throw FormatError(
+      fmt::format("{}: {}", path, kind_of_file(path).instead_of("a run (HDF5)", why)));
 }
 
 /// The product of two numbers; the largest number if the product overflows.
@@ -88,8 +122,9 @@ hsize_t product(hsize_t a, hsize_t b)
 void silence()
 {
   H5dont_atexit();
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5Eset_auto2(H5E_DEFAULT, remember_errno, nullptr);  // prints nothing
   H5Lunregister(H5L_TYPE_EXTERNAL);
+  H5Pset_obj_track_times(H5P_GROUP_CREATE_DEFAULT, 0);
 }
 
 Properties newest_format()
@@ -97,6 +132,7 @@ Properties newest_format()
   silence();
   Properties access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  H5Pset_file_locking(access, false, true);  // writers have an OutputLock, or a name of their own
   return access;
 }
 
@@ -121,16 +157,19 @@ bool is_hdf5(const std::string& path)
 File open_for_reading(const std::string& path, Properties access)
 {
   silence();
-  require_file(path);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw UsageError(fmt::format("{}: is not a regular file", path));
+  require_seekable(path);
   if (!access.valid()) access = Properties(H5Pcreate(H5P_FILE_ACCESS));
-  const bool is_live = has_swmr_writer(path);
-  if (is_live) H5Pset_metadata_read_attempts(access, most_attempts);
-  const unsigned mode = H5F_ACC_RDONLY | (is_live ? H5F_ACC_SWMR_READ : 0U);
+  const auto writer = writer_of(path);
+  if (writer.swmr) H5Pset_metadata_read_attempts(access, most_attempts);
+  const unsigned mode = H5F_ACC_RDONLY | (writer.swmr ? H5F_ACC_SWMR_READ : 0U);
   File file(H5Fopen(path.c_str(), mode, access));
-  if (!file.valid()) throw FormatError(fmt::format("{}: {}", path, why_it_does_not_open(path)));
+  if (!file.valid() && error_of_failure() != EWOULDBLOCK) {
+    // Many file systems of clusters have no locks. Only other programs' writers need one.
+    H5Pset_file_locking(access, false, true);
+    file = File(H5Fopen(path.c_str(), mode, access));
+  }
+  if (!file.valid()) refuse(path, writer);
+  last_system_error = 0;
   return file;
 }
 
@@ -278,6 +317,12 @@ void CheckedDataset::fail(const std::string& why) const
   throw FormatError(fmt::format("{} {}", full_path(), why));
 }
 
+void CheckedDataset::fail_to_read(const std::string& from) const
+{
+  require_system(full_path());
+  fail(fmt::format("cannot be read{}: the file is damaged or truncated", from));
+}
+
 void CheckedDataset::require(std::size_t axis, hsize_t size, bool at_least) const
 {
   if (at_least ? dims_[axis] < size : dims_[axis] != size)
@@ -303,13 +348,12 @@ void CheckedDataset::read_rows(hid_t memory_type, hsize_t first, hsize_t count, 
   const Space memory_space(
       H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr));
   if (H5Dread(dataset_, memory_type, memory_space, file_space, H5P_DEFAULT, data) < 0)
-    fail(fmt::format("cannot be read from row {}: the file is damaged or truncated", first));
+    fail_to_read(fmt::format(" from row {}", first));
 }
 
 void CheckedDataset::read_all(hid_t memory_type, void* data) const
 {
-  if (H5Dread(dataset_, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-    fail("cannot be read: the file is damaged or truncated");
+  if (H5Dread(dataset_, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail_to_read("");
 }
 
 bool is_usual_number(hid_t type)
@@ -355,24 +399,15 @@ std::vector<std::string> names_in(hid_t parent, const std::string& path)
   return names;
 }
 
-namespace {
-
-/// Finds the errno in an entry of HDF5's error stack, which contains it only as part of a text.
-herr_t find_errno(unsigned, const H5E_error2_t* entry, void* found)
+void require_system(const std::string& path)
 {
-  const char* place = entry->desc == nullptr ? nullptr : std::strstr(entry->desc, "errno = ");
-  int error = 0;
-  if (place != nullptr && std::sscanf(place, "errno = %d", &error) == 1 && error != 0)
-    *static_cast<int*>(found) = error;
-  return 0;
+  if (last_system_error != 0)
+    throw RunError(fmt::format("{}: cannot be read: {}", path, reason(last_system_error)));
 }
-
-}  // namespace
 
 std::string reason_of_failure()
 {
-  int error = 0;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &error);
+  const int error = error_of_failure();
   return error != 0 ? reason(error) : "the HDF5 library does not say why";
 }
 

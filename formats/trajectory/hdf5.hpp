@@ -129,6 +129,8 @@ class CheckedDataset {
 
  private:
   [[noreturn]] void fail(const std::string& why) const;
+  /// Throws RunError if the system refused the last read, else FormatError.
+  [[noreturn]] void fail_to_read(const std::string& from) const;
 
   void check_storage();
 
@@ -150,6 +152,10 @@ hsize_t size_of_file(hid_t object);
 bool exists(hid_t parent, const std::string& path);
 /// Names of the links in a group, in alphabetical order; none if the group does not exist.
 std::vector<std::string> names_in(hid_t parent, const std::string& path);
+
+/// Throws RunError if the system has let a call of the library fail since a file was last opened for
+/// reading. Call it before something in `path` is called damaged.
+void require_system(const std::string& path);
 
 /// The system's reason why the last call of the library failed ("No space left on device"), if the
 /// library knows it. Valid until the next call of the library.

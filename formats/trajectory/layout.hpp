@@ -89,6 +89,9 @@ void create_trajectory(const std::string& path, const RunDescription& run,
 /// frames. From 8,180 chunks (frames) on, parts of an index are longer than a page.
 void keep_in_pages(hid_t access);
 
+/// Bytes of a file that is written `live`, before it is compressed.
+double size_of_live_file(const LayoutSizes& run, std::size_t observables, bool float32);
+
 /// Writes or replaces a parameter (in /parameters). In a `live` file it must already exist with the
 /// same number of values. Throws RunError if it cannot be written.
 void write_parameter(hid_t file, const std::string& name, const std::vector<double>& values,

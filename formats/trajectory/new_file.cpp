@@ -23,6 +23,16 @@ void align(hid_t access, hsize_t bytes)
   H5Pset_alignment(access, 1, bytes);
 }
 
+/// Rows of a chunk of a growing dataset.
+hsize_t chunk_rows(const LayoutRow& row, const StorageSettings& storage)
+{
+  if (row.shape[0] == 'C') return storage.contact_chunk;
+  if (row.shape.starts_with("FN")) return 1;
+  return row.shape == "FD" ? std::max<hsize_t>(storage.scalar_chunk / 8, 1) : storage.scalar_chunk;
+}
+
+constexpr hsize_t page = 4096;  // bytes
+
 class NewFile {
  public:
   NewFile(const std::string& path, const RunDescription& run, const StorageSettings& storage)
@@ -141,13 +151,10 @@ class NewFile {
 
   void create_series(const std::string& path, const LayoutRow& row) const
   {
-    auto chunk = row.shape[0] == 'C' ? storage_.contact_chunk : storage_.scalar_chunk;
-    if (row.shape == "FD") chunk = std::max<hsize_t>(chunk / 8, 1);
-    if (row.shape.starts_with("FN")) chunk = 1;
     const auto of_frame =
         shape_of(row.shape.substr(1), {0, 0, run_.grains.size(), 0, run_.box.dimension});
     const auto dataset = create_growing(file_, path, type_of(row.type, storage_.float32), of_frame,
-                                        {chunk, storage_.compression});
+                                        {chunk_rows(row, storage_), storage_.compression});
     if (*row.unit != '\0') write_attribute(dataset, "unit", std::string(row.unit));
   }
 
@@ -179,7 +186,26 @@ std::string cleared(hid_t file, const std::string& name)
 
 void keep_in_pages(hid_t access)
 {
-  align(access, 4096);
+  align(access, page);
+}
+
+double size_of_live_file(const LayoutSizes& run, std::size_t observables, bool float32)
+{
+  // Bytes of a growing dataset beside its chunks, measured: index, in pages, and header.
+  constexpr double index = 4.5 * page + 512;
+  const auto round_up = [](auto bytes, auto unit) { return (bytes + unit - 1) / unit * unit; };
+  const auto bytes_of = [&](const LayoutRow& row) {
+    const auto rows = chunk_rows(row, {});
+    hsize_t bytes = rows * H5Tget_size(type_of(row.type, float32));
+    for (const auto size : shape_of(row.shape.substr(1), run)) bytes *= size;
+    const auto all = row.shape[0] == 'C' ? run.contacts : run.frames;
+    return index + static_cast<double>(round_up(bytes, page) * (round_up(all, rows) / rows));
+  };
+  const auto& of_observable = row_at("/particles/grains/position/time");
+  double bytes = static_cast<double>(observables) * bytes_of(of_observable);
+  for (const auto& row : layout)
+    if (row.grows()) bytes += bytes_of(row);
+  return bytes;
 }
 
 void create_trajectory(const std::string& path, const RunDescription& run,

@@ -236,8 +236,8 @@ struct TrajectoryReader::Datasets {
   std::array<RowReader, number_of_fields> rows;  // index: Field
 };
 
-TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify) : verify_(verify)
-{
+TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify)
+try : verify_(verify) {
   auto file = open_for_reading(path, small_index_cache());
   run_ = std::make_unique<StoredRun>(read_stored_run(file, path));
   datasets_ = std::make_unique<Datasets>(std::move(file), *run_);
@@ -246,6 +246,9 @@ TrajectoryReader::TrajectoryReader(const std::string& path, Verify verify) : ver
                   [](const auto& number) { return is_known_at_end(number.first); });
   if (verify == Verify::no) return;
   if (const auto damage = damage_of(*run_); !damage.empty()) run_->fail(damage);
+} catch (const FormatError&) {
+  require_system(path);
+  throw;
 }
 
 TrajectoryReader::~TrajectoryReader() = default;

@@ -113,8 +113,10 @@ std::shared_ptr<const Chunk> RowReader::chunk(std::size_t number) const
   if (layout_->chunk_bytes() / most_deflated > size) throw damaged("is too small for its content");
   auto bytes = std::make_unique_for_overwrite<std::uint8_t[]>(size);
   std::uint32_t left_out = 0;
-  if (H5Dread_chunk(dataset_.id(), H5P_DEFAULT, start.data(), &left_out, bytes.get()) < 0)
+  if (H5Dread_chunk(dataset_.id(), H5P_DEFAULT, start.data(), &left_out, bytes.get()) < 0) {
+    hdf5::require_system(layout_->dataset);
     throw damaged("cannot be read");
+  }
   auto one = std::make_shared<const Chunk>(layout_, number, std::move(bytes), size, left_out);
   if (layout_->chunk_rows > 1) {
     kept_.push_back(one);

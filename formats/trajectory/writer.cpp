@@ -71,7 +71,8 @@ struct TrajectoryWriter::Impl {
     const Properties access = newest_format();
     if (storage.live) keep_in_pages(access);
     file = File(H5Fopen(path.c_str(), mode, access));
-    if (!file.valid()) throw RunError(fmt::format("cannot open {} for writing", path));
+    if (!file.valid())
+      throw RunError(fmt::format("cannot open {} for writing: {}", path, reason_of_failure()));
   }
 
   Series series(const std::string& at, Number number) const

@@ -4,12 +4,20 @@
 #include "formats/cli/interruption.hpp"
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
+#include "formats/core/memory.hpp"
+#include "formats/trajectory/layout.hpp"
+#include "sim/run/recorder.hpp"
 #include "sim/scene/deposition.hpp"
 #include "sim/scene/geometry.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/magic.h>
+#include <sys/vfs.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -19,19 +27,35 @@ namespace {
 
 // Measured on chutes of 3,400 and 13,600 grains.
 constexpr double memory_without_grains = 25e6, memory_of_grain = 5500;  // bytes
-// Measured on chutes of 3,500 spheres.
-constexpr double memory_of_sphere = 14000, contacts_per_sphere = 2.1;
-constexpr double contacts_per_grain = 1.7;
+constexpr double memory_of_sphere = 14000;  // bytes, measured on chutes of 3,500 spheres
+// Contacts of one frame per grain, seldom more: 1.0 to 1.8 and 2.1 to 2.4 were measured.
+constexpr double contacts_per_grain = 1.9, contacts_per_sphere = 2.5;
 constexpr double usual_grain_step = 4e-7;                   // s, to decide whether to measure
 constexpr double worth_measuring = 60, measured_for = 0.3;  // s; of a run, of the measurement
 
-double bytes_of_frame(const Scene& scene, double grains)
+double bytes_of_file(const Scene& scene, double frames, double grains)
 {
-  const double number = scene.float32 ? 4 : 8, whole = 4;
-  if (scene.dimension == 3)
-    return grains * (12 * number + 3 * whole) +
-           contacts_per_sphere * grains * (7 * number + 2 * whole);
-  return grains * (7 * number + 2 * whole) + contacts_per_grain * grains * (5 * number + 2 * whole);
+  const double contacts = scene.dimension == 3 ? contacts_per_sphere : contacts_per_grain;
+  const auto whole = [](double number) { return static_cast<std::size_t>(std::llround(number)); };
+  return size_of_live_file(
+      {whole(frames), whole(frames * contacts * grains), whole(grains), 0, scene.dimension},
+      Recorder::observables(scene.dimension).size(), scene.float32);
+}
+
+/// Error with which the file system refuses so many bytes beside `output`, such as EDQUOT; 0 if it
+/// grants them, or cannot tell.
+int error_of_reserving(double bytes, const std::string& output)
+{
+  const auto name = temporary_path(output);
+  const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) return 0;
+  unlink(name.c_str());
+  struct statfs system {};
+  // Reserving memory would take as long as filling it.
+  const bool on_disk = fstatfs(file, &system) == 0 && system.f_type != TMPFS_MAGIC;
+  const int error = on_disk && fallocate(file, 0, 0, std::llround(bytes)) != 0 ? errno : 0;
+  close(file);
+  return error == EDQUOT || error == EFBIG || error == ENOSPC ? error : 0;
 }
 
 constexpr double most_measured = 4000;  // grains of the small bed, unless it would be too low
@@ -108,10 +132,12 @@ ExpectedCost expected_cost(const Scene& scene, double begin, Measure measure)
                 (scene.dimension == 3 ? memory_of_sphere : memory_of_grain) * cost.grains;
   cost.of_rest = begin > 0;
   const double flow = std::max(0.0, scene.duration - begin);
-  const double frames = (flow / scene.frame_interval) *
-                        static_cast<double>(std::min(scene.burst, scene.steps_per_frame()));
-  cost.file = frames * bytes_of_frame(scene, cost.grains);
   const double deposition = begin > 0 ? 0 : expected_time_to_rest(scene);
+  const double frames = (flow / scene.frame_interval) *
+                            static_cast<double>(std::min(scene.burst, scene.steps_per_frame())) +
+                        (scene.keep_deposition ? deposition / scene.frame_interval : 0);
+  cost.file = bytes_of_file(scene, frames, cost.grains);
+  cost.disk = scene.compression > 0 ? 2 * cost.file : cost.file;  // packed into a second file
   const double grain_steps = cost.grains * (flow + deposition) / scene.step;
   if (measure == Measure::where_long && grain_steps * usual_grain_step < worth_measuring)
     return cost;
@@ -126,7 +152,9 @@ std::string to_text(const ExpectedCost& cost)
   const auto file = bytes_in_words(cost.file);
   auto text =
       fmt::format("{:.0f} grains, {} of memory, {}", cost.grains, bytes_in_words(cost.memory),
-                  cost.of_rest ? file + " of new frames" : "a file of " + file);
+                  cost.of_rest ? "up to " + file + " of new frames" : "a file of up to " + file);
+  if (cost.disk > cost.file)
+    text += fmt::format(" before and {} while it is compressed", bytes_in_words(cost.disk));
   if (cost.seconds) text += ", about " + seconds_in_words(*cost.seconds);
   return text;
 }
@@ -150,7 +178,12 @@ void require_room(const ExpectedCost& cost, const std::string& output)
   std::error_code error;
   const auto folder = std::filesystem::absolute(output, error).parent_path();
   const auto space = std::filesystem::space(folder, error);
-  if (!error) require(cost.file, static_cast<double>(space.available), "on the disk of " + output);
+  const auto where = "on the disk of " + output;
+  if (!error) require(cost.disk, static_cast<double>(space.available), where);
+  if (const int refused = error_of_reserving(cost.file, output); refused != 0)
+    throw RunError(
+        fmt::format("this run needs up to {} {}: {}; choose a smaller scene, or pass --force",
+                    bytes_in_words(cost.disk), where, reason(refused)));
 }
 
 }  // namespace grseg

@@ -8,12 +8,13 @@
 
 namespace grseg {
 
-/// Cost of a run, estimated before it begins: bytes within a factor of about 1.5, time within 2, or 3
+/// Cost of a run, estimated before it begins: memory within a factor of about 1.5, time within 2, or 3
 /// at large friction or restitution (docs/studies/hard-cases.md).
 struct ExpectedCost {
   double grains = 0;              // number of grains, including boundary grains
   double memory = 0;              // bytes of memory
-  double file = 0;                // bytes of the trajectory, before compression
+  double file = 0;                // bytes of the trajectory, before compression; an upper bound
+  double disk = 0;                // bytes that must be free at the start, with copies at the end
   std::optional<double> seconds;  // s, wall-clock time, if it was estimated
   bool of_rest = false;           // true if only the rest of a run, after a restart, is included
 };
@@ -32,7 +33,8 @@ std::string to_text(const ExpectedCost& cost);
 /// Table of one row: grains, memory[bytes], file[bytes], time[s].
 std::string to_table(const ExpectedCost& cost);
 
-/// Throws UsageError if free memory, or free space on the disk of `output`, is less than `cost`.
+/// Throws UsageError if free memory, or free space on the disk of `output`, is less than `cost`, RunError
+/// if a quota or a limit on file sizes is in the way.
 void require_room(const ExpectedCost& cost, const std::string& output);
 
 }  // namespace grseg

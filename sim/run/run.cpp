@@ -18,6 +18,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <limits>
 
 namespace grseg {
@@ -239,10 +240,12 @@ void record_deposition(const Scene& scene, const RunOptions& options, Trajectory
       {.each_step = [&](double time) { progress.step_to(time); }, .slowed = {}, .record = record});
 }
 
-/// Prints the expected cost of the run from `begin`, s, on. Throws UsageError if it is too large.
-void announce(const Scene& scene, double begin, const RunOptions& options)
+/// Prints the expected cost of the run from `begin`, s, on, with `kept` bytes of earlier frames.
+/// Throws UsageError if it is too large.
+void announce(const Scene& scene, double begin, const RunOptions& options, double kept = 0)
 {
-  const auto cost = expected_cost(scene, begin);
+  auto cost = expected_cost(scene, begin);
+  cost.disk += kept;  // copied before the run goes on, or packed with the others when it ends
   if (!options.quiet) tell(fmt::format("grseg-sim: {}\n", to_text(cost)));
   if (!options.force) require_room(cost, options.output);
 }
@@ -297,6 +300,15 @@ Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options,
   return deposit<D>(scene, {.each_step = step, .slowed = slowed, .record = {}, .layered = layered});
 }
 
+/// The output, where it is a link the file to which it leads: its disk has room for the temporary
+/// files. Throws UsageError if there is no such file and the link may not be followed.
+std::string followed(const RunOptions& options)
+{
+  auto target = behind_links(options.output);
+  if (!is_taken(target)) check_output(options.output, options.overwrite, {});
+  return target;
+}
+
 template <int D>
 void simulate_in(const Scene& scene, const RunOptions& options)
 {
@@ -330,6 +342,7 @@ void simulate_in(const Scene& scene, const RunOptions& options)
 template <int D>
 void resume_in(const Checkpoint<D>& checkpoint, const Scene& given, RunOptions options)
 {
+  options.output = followed(options);
   const auto part = part_of(options.output);
   const auto before = scene_of(checkpoint.scene, options.restart);
   const auto scene = without_round_off(given, before);
@@ -357,7 +370,10 @@ void resume_in(const Checkpoint<D>& checkpoint, const Scene& given, RunOptions o
   if (!options.quiet)
     tell(fmt::format("grseg-sim: continues {} from t = {:g} s\n", options.restart,
                      simulation.time()));
-  announce(scene, simulation.time(), options);
+  std::error_code none;
+  const auto kept =
+      in_place ? std::filesystem::file_size(has_part ? part : options.output, none) : 0;
+  announce(scene, simulation.time(), options, none ? 0 : static_cast<double>(kept));
 
   const auto history = fmt::format("{}\n{} (from t = {:g} s)", checkpoint.history,
                                    options.command_line, simulation.time());
@@ -379,8 +395,10 @@ void resume_in(const Checkpoint<D>& checkpoint, const Scene& given, RunOptions o
 
 }  // namespace
 
-void simulate(const Scene& scene, const RunOptions& options)
+void simulate(const Scene& scene, const RunOptions& given)
 {
+  auto options = given;
+  options.output = followed(given);
   with_dimension(scene.dimension, [&](auto d) { simulate_in<d>(scene, options); });
 }
 

@@ -235,7 +235,7 @@ std::vector<std::string> archive_files(const std::vector<std::string>& names,
   std::vector<std::string> files;
   for (const auto& name : names) {
     if (name.find_first_of("*%") == std::string::npos || std::filesystem::exists(name)) {
-      require_file(name);
+      require_seekable(name);
       files.push_back(name);
       continue;
     }
@@ -271,7 +271,7 @@ std::string other_kind(std::string_view start)
 void refuse_other_kind(const std::string& path)
 {
   constexpr std::size_t enough = 4096;
-  require_file(path);
+  require_seekable(path);
   std::string kind;
   if (hdf5::is_hdf5(path)) {
     const auto start = start_of_hdf5(path);

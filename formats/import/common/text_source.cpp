@@ -87,7 +87,7 @@ void push_unpacking(const std::string& file, Stream& stream)
 
 std::unique_ptr<Stream> open_unpacked(const std::string& file)
 {
-  require_file(file);
+  require_seekable(file);
   auto stream = std::make_unique<Stream>();
   push_unpacking(file, *stream);
   stream->push(io::file_source(file, std::ios::binary), filter_buffer);
