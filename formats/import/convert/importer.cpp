@@ -140,8 +140,11 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   if (settings.end) texts["import_end"] = *settings.end;
   if (settings.repeated) texts["import_repeated"] = *settings.repeated;
   texts["import_instant"] =
-      "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
-      "step";
+      frames.archive().facts().at_detection
+          ? "positions are those at which the contacts of the step were found, velocities those of "
+            "its end"
+          : "positions, velocities and forces are those of the archive at `time`, not of the middle "
+            "of a step";
   add_check_parameters(run.parameters, frames, settings);
   return run;
 }
