@@ -78,7 +78,7 @@ void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
   texts["import_tolerance_reason"] = archive.tolerance_reason;
   texts["import_gravity"] = source(archive.gravity && !settings.gravity);
   texts["import_masses"] = source(archive.density.has_value() || has_masses);
-  texts["import_step"] = source(archive.step.has_value());
+  texts["import_step"] = source(archive.step.has_value() || !frames.facts().knows_step);
   texts["import_times"] = !frame.time ? "steps" : frame.step ? "both" : "times";
   if (!frames.facts().doubt_of_masses.empty())
     texts["import_masses_doubt"] = frames.facts().doubt_of_masses;
