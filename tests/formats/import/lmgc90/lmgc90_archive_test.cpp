@@ -60,7 +60,7 @@ TEST(Lmgc90Archive, ForcesOfDiscsAtRestAreTheirWeights)
   const auto frames = all_of(*archive);
   ASSERT_EQ(frames.size(), 1u);  // the velocities before step 1 are not known
   const auto& [step, time, low, high, periodic, cell, grains, contacts, place, questions] =
-      frames[1];
+      frames[0];
   EXPECT_EQ(grains.id, (std::vector<std::int64_t>{2, 3, 4}));
   EXPECT_NEAR(grains.mass[0] * 9.81, weight, 1e-9 * weight);
   EXPECT_EQ(grains.position[1], Vec3(0, 0.3, 0));
@@ -117,7 +117,7 @@ TEST_F(ChangedLmgc90, DrumIsAWall)
 
 TEST_F(ChangedLmgc90, BodyWithPrescribedRestIsFixed)
 {
-  replace("DATBOX/DRV_DOF.DAT", " RBDY2        1", " RBDY2        4");
+  replace("DATBOX/DRV_DOF.DAT", " RBDY2      1", " RBDY2      4");
   EXPECT_EQ(all_of(*open(run)).at(0).grains.fixed, (std::vector<std::uint8_t>{0, 0, 1}));
   replace("DATBOX/DRV_DOF.DAT", "0.0000000E+00", "0.1000000E+00");  // it moves
   EXPECT_EQ(all_of(*open(run)).at(0).grains.fixed, (std::vector<std::uint8_t>{0, 0, 0}));
@@ -139,12 +139,12 @@ TEST_F(ChangedLmgc90, BodiesOfOtherShapesAreNamed)
 TEST_F(ChangedLmgc90, DamageIsNamedWithItsPlace)
 {
   replace("OUTBOX/DOF.OUT.2", " RBDY2        4\n", " RBDY2        5\n");
-  EXPECT_TRUE(mentions(complaint(), "DOF.OUT.2, line 28: a body is missing before this line"));
+  EXPECT_TRUE(mentions(complaint(), "DOF.OUT.2, line 29: a body is missing before this line"));
+  replace("OUTBOX/DOF.OUT.2", " RBDY2        5\n", " RBDY2        4\n");
+  replace("OUTBOX/Vloc_Rloc.OUT.2", " RBDY2      3", " RBDY2      9");
+  EXPECT_TRUE(mentions(complaint(), "the contact of bodies 9 and 2 is not one of a grain"));
   replace("OUTBOX/Vloc_Rloc.OUT.1", "rln/H", "rln  ");
   EXPECT_TRUE(mentions(complaint(), "'rln/H' and its number are missing before this line"));
-  replace("OUTBOX/Vloc_Rloc.OUT.1", " RBDY2      3", " RBDY2      9");
-  replace("OUTBOX/Vloc_Rloc.OUT.1", "rln  ", "rln/H");
-  EXPECT_TRUE(mentions(complaint(), "the contact of bodies 9 and 2 is not one of a grain"));
   replace("OUTBOX/Vloc_Rloc.OUT.1", "$steps        1", "$steps        3");
   EXPECT_TRUE(mentions(complaint(), "this is step 3, but"));
   fs::remove(run + "/OUTBOX/Vloc_Rloc.OUT.1");
@@ -169,7 +169,7 @@ TEST_F(ChangedLmgc90, StepsAfterAGapAreLeftOutOnlyIfMostWereWritten)
   auto archive = open(run);
   all_of(*archive);
   ASSERT_EQ(archive->remarks().size(), 1u);
-  EXPECT_TRUE(mentions(archive->remarks()[0], "1 steps are left out"));
+  EXPECT_TRUE(mentions(archive->remarks()[0], "if the step before was not written: 1 of 2"));
   for (const char* file : {"DOF", "Vloc_Rloc"})
     replace(fmt::format("OUTBOX/{}.OUT.2", file), "$steps        2", "$steps        9");
   archive = open(run);
