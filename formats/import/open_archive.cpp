@@ -17,6 +17,7 @@ constexpr const ArchiveFormat* formats[] = {
     &liggghts_format,  //
     &mercury_format,   //
     &siconos_format,   //
+    &lmgc90_format,    //
     &csv_format,
 };
 

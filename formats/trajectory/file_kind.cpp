@@ -24,7 +24,7 @@ constexpr KnownStart known_starts[] = {
     {"<!DOCTYPE html", "a page of HTML", "a browser shows it"},
     {"<?xml", "XML, such as a picture (SVG) or a file for ParaView", "give the run that it shows"},
     {"\x89PNG", "a picture", "give the run that it shows"},
-    {"%PDF", "a picture or document (PDF)", "give the run that it shows"},
+    {"%PDF-", "a picture or document (PDF)", "give the run that it shows"},
     {"\x1f\x8b", "packed by gzip", "unpack it first"},
     {"\x28\xb5\x2f\xfd", "packed by zstd", "unpack it first"},
     {"PK\x03\x04", "a zip archive", "unpack it first"},
@@ -67,6 +67,8 @@ FileKind kind_of_hdf5(hid_t file)
     return {"a run", "grseg-stress makes a table of it"};
   if (hdf5::exists(file, "/version") && hdf5::exists(file, "/state"))
     return {"a checkpoint of grseg-sim", "grseg-sim --restart continues it"};
+  if (hdf5::exists(file, "/Evolution") && hdf5::exists(file, "/Simulation"))
+    return {"an archive of LMGC90", "grseg-import makes a run of it"};
   if (hdf5::exists(file, "/h5md"))
     return {"an H5MD file without contacts, as grseg-export writes it", "give the run itself"};
   return {};

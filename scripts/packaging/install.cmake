@@ -74,7 +74,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stress partition between small and large 
 set(CPACK_PACKAGE_DESCRIPTION
     "Contact dynamics of rigid discs, and tools that split the stress of a granular flow
 between species of grains, under any rule for contacts of small with large ones,
-also of archives of LAMMPS, LIGGGHTS, MercuryDPM, Siconos and YADE.")
+also of archives of LAMMPS, LIGGGHTS, MercuryDPM, Siconos, LMGC90 and YADE.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

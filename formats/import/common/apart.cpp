@@ -263,8 +263,9 @@ void each_of(ArchiveFrame& frame, Pass& pass)
 template <class Pass>
 void each_of(ArchiveFacts& facts, Pass& pass)
 {
-  auto& [step, density, gravity, discs, walls, units, late, lists_all, tolerance, reason] = facts;
-  pass(step, density, gravity, discs, walls, units, late, lists_all, tolerance, reason);
+  auto& [step, density, gravity, discs, walls, units, late, lists_all, detection, tolerance,
+         reason] = facts;
+  pass(step, density, gravity, discs, walls, units, late, lists_all, detection, tolerance, reason);
 }
 
 std::unique_ptr<Archive> open_apart(const std::string& file,

@@ -217,6 +217,9 @@ struct ArchiveFacts {
   /// True if every overlapping pair has a row, as for soft grains. Contact dynamics may list only
   /// the pairs that transmit a force.
   bool lists_all = true;
+  /// True if contacts were found at the positions given, while velocities and the time belong to the
+  /// end of the step.
+  bool at_detection = false;
   /// Largest residual of a grain's force balance that correct output of this program can have,
   /// relative to the largest force, after subtraction of late damping; and its reason (digits of
   /// text, float32).
@@ -293,7 +296,7 @@ struct ArchiveFormat {
 
 /// The formats, each defined in the folder of its program.
 extern const ArchiveFormat lammps_format, liggghts_format, mercury_format, siconos_format,
-    csv_format;
+    lmgc90_format, csv_format;
 
 /// The known formats, in the order of --help.
 std::span<const ArchiveFormat* const> archive_formats();

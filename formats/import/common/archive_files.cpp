@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 
 namespace grseg {
 namespace {
@@ -61,7 +62,8 @@ constexpr auto from_restart =
     "read it in that program; then `run 0` with a `dump custom` "
     "of grains and a `dump local` of contacts";
 constexpr auto from_paraview =
-    "write dumps as text instead, or save it as a table in ParaView (--format csv)";
+    "write dumps as text instead (LIGGGHTS), or tables by scripts/archives/yade_export.py (YADE), or "
+    "save it as a table in ParaView (--format csv)";
 
 struct Kind {
   const char* what;
@@ -70,7 +72,8 @@ struct Kind {
   std::size_t at = 0;                             // offset in the file, bytes
 };
 
-constexpr Kind kinds[] = {
+/// Kinds that are not text. Their bytes alone, some of which are letters, do not tell them from text.
+constexpr Kind binary_kinds[] = {
     {"a zip archive, as xlsx, ods and npz are",
      "unpack it and name the files that were in it, or save its "
      "sheets or arrays as tables (--format csv)",
@@ -95,16 +98,11 @@ constexpr Kind kinds[] = {
     {"a spreadsheet of Excel", "save its sheets as tables (--format csv)", {"\xd0\xcf\x11\xe0"sv}},
     {"a netCDF file", to_dumps, {"CDF\x01"sv, "CDF\x02"sv, "CDF\x05"sv}},
     {"an HDF5 file",
-     "--format siconos reads files of Siconos; write grains and contacts of another program as "
-     "tables (--format csv)",
+     "--format siconos and --format lmgc90 read such files; write grains and contacts of another "
+     "program as tables (--format csv)",
      {"\x89HDF\r\n\x1a\n"sv}},
-    {"a VTK file", from_paraview, {"# vtk DataFile"sv, "<VTKFile"sv}},
-    {"a YAML file", to_dumps, {"---\n"sv, "---\r\n"sv}},
-    {"a file of AtomEye (cfg)", to_dumps, {"Number of particles ="sv}},
     {"a restart file of LAMMPS", from_restart, {"LammpS RestartT"sv}},
     {"a restart file of LIGGGHTS", from_restart, {"Version LIGGGHTS"sv}, 8},
-    {"a data file of LAMMPS", from_restart, {"LAMMPS data file"sv}},
-    {"a log of LAMMPS", "name its dumps", {"LAMMPS ("sv}},
     {"a binary dump of LAMMPS",
      "turn it into text by binary2txt, which comes with LAMMPS",
      {"DUMPATOM"sv, "DUMPCUSTOM"sv},
@@ -116,10 +114,35 @@ constexpr Kind kinds[] = {
     {"a GSD file of HOOMD", to_tables, {"\xdf\x65\xdf\x65\xdf\x65\xdf\x65"sv}},
     {"a DCD file, which contains positions only", to_dumps, {"CORD"sv}, 4},
     {"a trajectory of GROMACS", to_dumps, {"\0\0\x07\xc9"sv, "\0\0\x07\xcb"sv}},
+};
+
+constexpr Kind text_kinds[] = {
+    {"a VTK file", from_paraview, {"# vtk DataFile"sv, "<VTKFile"sv}},
+    {"a YAML file", to_dumps, {"---\n"sv, "---\r\n"sv}},
+    {"a file of AtomEye (cfg)", to_dumps, {"Number of particles ="sv}},
+    {"a data file of LAMMPS", from_restart, {"LAMMPS data file"sv}},
+    {"a log of LAMMPS", "name its dumps", {"LAMMPS ("sv}},
+    {"a file of GiD, as Kratos writes it", to_tables, {"GiD Post Result"sv, "MESH \""sv}},
+    {"a model of Kratos (mdpa)",
+     to_tables,
+     {"Begin ModelPartData"sv, "Begin Properties"sv, "Begin Nodes"sv, "Begin Table"sv}},
+    {"a file of ESyS-Particle", to_tables, {"LSMGeometry"sv, "V 1\n"sv, "V 2\n"sv, "V 3\n"sv}},
     {"a pointer of Git LFS", "fetch the file itself (git lfs pull)", {"version https://git-lfs"sv}},
     {"a page of HTML", "download the file itself", {"<!DOCTYPE html"sv, "<html"sv}},
-    {"a PDF", to_tables, {"%PDF"sv}},
+    {"a PDF", to_tables, {"%PDF-"sv}},
     {"text in UTF-16", "save it as UTF-8", {"\xff\xfe"sv, "\xfe\xff"sv}},
+};
+
+/// Kinds by the ends of names, for files whose content nothing tells.
+constexpr Kind named_kinds[] = {
+    {"a saved state of a program of Itasca",
+     to_tables,
+     {".sav"sv, ".p2sav"sv, ".p3sav"sv, ".f2sav"sv, ".f3sav"sv}},
+    {"a file of MUSEN", to_tables, {".mdem"sv}},
+    {"a file of GiD, as Kratos writes it",
+     to_tables,
+     {".post.bin"sv, ".post.res"sv, ".post.msh"sv}},
+    {"a model of Kratos (mdpa)", to_tables, {".mdpa"sv}},
 };
 
 std::string is_of(const char* what, const char* way_out)
@@ -190,6 +213,8 @@ std::string other_kind_of_hdf5(const std::vector<std::string>& groups)
   const auto has = [&](const char* name) {
     return std::find(groups.begin(), groups.end(), name) != groups.end();
   };
+  if (has("CreatorData") || has("TimestepData")) return is_of("an HDF5 file of EDEM", to_tables);
+  if (has("Step#0")) return is_of("an H5Part file", to_tables);
   if (has("h5md")) return is_of("an H5MD file of another program, without contacts", to_tables);
   if (has("state") && has("version"))
     return is_of("a checkpoint of grseg-sim", "give its run to grseg-stress and the other tools");
@@ -250,9 +275,17 @@ std::vector<std::string> archive_files(const std::vector<std::string>& names,
 std::string other_kind(std::string_view start)
 {
   if (start.starts_with(byte_order_mark)) start.remove_prefix(byte_order_mark.size());
-  for (const auto& [what, way_out, all_bytes, at] : kinds)
-    for (const auto bytes : all_bytes)
-      if (start.size() >= at && start.substr(at).starts_with(bytes)) return is_of(what, way_out);
+  const auto named = [start](std::span<const Kind> kinds) -> std::string {
+    for (const auto& [what, way_out, all_bytes, at] : kinds)
+      for (const auto bytes : all_bytes)
+        if (start.size() >= at && start.substr(at).starts_with(bytes)) return is_of(what, way_out);
+    return "";
+  };
+  const bool is_text = std::none_of(start.begin(), start.end(), [](unsigned char c) {
+    return c < ' ' && c != '\t' && c != '\n' && c != '\r';
+  });
+  if (const auto kind = named(text_kinds); !kind.empty()) return kind;
+  if (const auto kind = named(binary_kinds); !kind.empty() && !is_text) return kind;
   if (start.starts_with("<?xml"))
     return start.find("<VTKFile") != start.npos ? is_of("a VTK file", from_paraview)
                                                 : is_of("an XML file", to_tables);
@@ -260,12 +293,22 @@ std::string other_kind(std::string_view start)
     if (start.starts_with(json)) return is_of("a JSON file", in_pandas);
   constexpr std::size_t early = 16;
   if (start.substr(0, early).find('\0') != start.npos)
-    return is_of("not text",
-                 "turn a binary dump into text by binary2txt, save a table in UTF-16 as UTF-8");
+    return is_of(
+        "not text",
+        "turn a binary dump into text by binary2txt, save a table in UTF-16 as UTF-8, write "
+        "output of other programs as tables (--format csv)");
   const auto lines = words_by_line(start);
   if (is_xyz(lines)) return is_of("an xyz file", to_dumps);
   if (is_data_of_lammps(lines)) return is_of("a data file of LAMMPS", from_restart);
   return kind_of_start(start).instead_of("a dump", "");
+}
+
+std::string kind_by_name(const std::string& path)
+{
+  for (const auto& [what, way_out, ends, unused] : named_kinds)
+    for (const auto end : ends)
+      if (path.ends_with(end)) return is_of(what, way_out);
+  return "";
 }
 
 void refuse_other_kind(const std::string& path)
@@ -282,6 +325,9 @@ void refuse_other_kind(const std::string& path)
     kind = other_kind_of_hdf5(start.groups);
   } else {
     kind = other_kind(unpacked_start(path, enough));
+    if (const auto by_name = kind_by_name(path);
+        kind.starts_with("is not text") && !by_name.empty())
+      kind = by_name;
   }
   if (!kind.empty()) throw FormatError(fmt::format("{} {}", path, kind));
 }

@@ -24,6 +24,10 @@ bool natural_less(const std::string& a, const std::string& b);
 /// archive. `start` is the beginning of the file, decompressed.
 std::string other_kind(std::string_view start);
 
+/// Kind and remedy, like other_kind(), of a file whose content nothing tells, by its name; "" if the
+/// name tells nothing either.
+std::string kind_by_name(const std::string& path);
+
 /// The kind of data that a file of an archive contains.
 enum class FileRole { none, grains, contacts, restart };
 

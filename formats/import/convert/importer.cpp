@@ -78,7 +78,7 @@ void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
   texts["import_tolerance_reason"] = archive.tolerance_reason;
   texts["import_gravity"] = source(archive.gravity && !settings.gravity);
   texts["import_masses"] = source(archive.density.has_value() || has_masses);
-  texts["import_step"] = source(archive.step.has_value());
+  texts["import_step"] = source(archive.step.has_value() || !frames.facts().knows_step);
   texts["import_times"] = !frame.time ? "steps" : frame.step ? "both" : "times";
   if (!frames.facts().doubt_of_masses.empty())
     texts["import_masses_doubt"] = frames.facts().doubt_of_masses;
@@ -144,8 +144,11 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
   if (settings.end) texts["import_end"] = *settings.end;
   if (settings.repeated) texts["import_repeated"] = *settings.repeated;
   texts["import_instant"] =
-      "positions, velocities and forces are those of the archive at `time`, not of the middle of a "
-      "step";
+      frames.archive().facts().at_detection
+          ? "positions are those at which the contacts of the step were found, velocities those of "
+            "its end"
+          : "positions, velocities and forces are those of the archive at `time`, not of the middle "
+            "of a step";
   add_check_parameters(run.parameters, frames, settings);
   return run;
 }

@@ -3,6 +3,7 @@
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "formats/import/convert/scan.hpp"
+#include "formats/trajectory/hdf5.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,11 +87,25 @@ std::vector<std::string> samples_of(const ArchiveFiles& files)
       return (named.empty() || named == format->name) && format->role(starts[k]) != FileRole::none;
     });
     if (is_known) continue;
+    const auto& [name, lines, groups] = starts[k];
+    const auto kind = kind_by_name(unnamed[k]);
+    if (!kind.empty()) throw UsageError(fmt::format("{} {}", unnamed[k], kind));
+    if (hdf5::is_hdf5(unnamed[k]))
+      throw UsageError(fmt::format(
+          "{} is an HDF5 file of unknown layout, with {} in its root: write its grains and "
+          "contacts as tables (--format csv)",
+          unnamed[k],
+          groups.empty() ? "nothing" : in_quotes(fmt::format("{}", fmt::join(groups, ", ")))));
+    const auto first = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+      return !words_of(line).empty();
+    });
     throw UsageError(fmt::format(
-        "{}: its content is not recognised{}{}; name it with --grains or --contacts{}", unnamed[k],
-        named.empty() ? "" : " as that of --format " + named,
-        starts[k].lines.empty() ? "" : " by its first line, " + in_quotes(starts[k].lines.front()),
-        named.empty() ? ", and its --format" : ""));
+        "{}: its content is not recognised{}{}; name it with --grains or --contacts{}; files of "
+        "other programs must become tables first (--format csv)",
+        unnamed[k], named.empty() ? "" : " as that of --format " + named,
+        first == lines.end() ? "" : " by its first line, " + in_quotes(*first),
+        named.empty() ? fmt::format(", and its --format ({})", fmt::join(names_of_formats(), ", "))
+                      : ""));
   }
   throw UsageError(
       "the files are not of one program; name the program with "

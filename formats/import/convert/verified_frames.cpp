@@ -23,7 +23,8 @@ VerifiedFrames::VerifiedFrames(ScannedArchive scanned, const ImportSettings& set
       bed_(scanned_.all_grains(), facts(), settings, scanned_.roster() != nullptr),
       verification_(
           bed_.grains, bed_.box, bed_.gravity,
-          {archive().facts().tolerance, archive().facts().forces_are_late, facts().step,
+          {archive().facts().tolerance, archive().facts().forces_are_late,
+           facts().knows_step ? facts().step : 0,
            facts().discs ? inertia_factor<2> : inertia_factor<3>, archive().facts().lists_all},
           waivers_, axes_of(bed_))
 {

@@ -137,8 +137,10 @@ class FactFinder {
   void find_step()
   {
     const auto step = either(archive_.step, settings_.step, "--step");
-    if (!step) questions_.ask({"the length of a time step", "--step DT", "in the archive's units"});
-    facts_.step = step.value_or(1);
+    if (!step && !settings_.interval)
+      questions_.ask({"the length of a time step", "--step DT", "in the archive's units"});
+    facts_.step = step.value_or(settings_.interval.value_or(1));
+    facts_.knows_step = step.has_value();
     if (!(facts_.step > 0))
       throw UsageError(fmt::format("a time step of {:g} is not positive", facts_.step));
   }

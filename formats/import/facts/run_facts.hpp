@@ -13,7 +13,8 @@ namespace grseg {
 
 /// Facts of an imported run, in the archive's units.
 struct RunFacts {
-  double step = 0;
+  double step = 0;  // length of a time step, or --frame-interval if that is all that is known
+  bool knows_step = true;
   int dimension = 2;
   std::string axes = "xy";  // letters of the axes, before the rotation to a slope
   Orientation orientation;

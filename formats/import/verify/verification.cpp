@@ -275,7 +275,7 @@ std::optional<Complaint> Verification::distance_moved(const Frame<3>& frame) con
 auto Verification::from_before(const Frame<3>& frame, const Sums& sums) const -> Distance
 {
   if (!before_) return Distance::none;
-  if (frame.step == before_->step + 1)
+  if (accuracy_.step > 0 && frame.step == before_->step + 1)
     return too_far(frame) > farthest ? Distance::far : Distance::step;
   if (!frame.force.empty()) return Distance::far;
   const double change = change_of_sums(grains_, frame, sums.before, sums.now);

@@ -42,7 +42,7 @@ struct Complaint {
 struct OutputAccuracy {
   double tolerance = 0;      // largest residual that late damping does not explain
   bool late_forces = false;  // true: forces are half a step late (imbalance.hpp)
-  double step = 0;           // length of an integration step
+  double step = 0;           // length of an integration step; 0: unknown
   double inertia = 0.5;      // I/(m r^2) of the grains, needed for late forces
   bool lists_all = true;     // true: every overlapping pair has a row, also without a force
 };

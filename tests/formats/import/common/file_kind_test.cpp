@@ -51,7 +51,13 @@ TEST(FileKind, IsRecognisedByTheFirstBytes)
       {"<?xml version=\"1.0\"?>\n<Xdmf>\n", "an XML file"},
       {"---\ncreator: LAMMPS\ntimestep: 0\n", "a YAML file"},
       {"[{\"id\": 1}]", "a JSON file"},
-      {std::string(257, 'a') + "ustar", "a tar archive"},
+      {std::string(257, '\0') + "ustar", "a tar archive"},
+      {"GiD Post Results File 1.0\n\nResult", "a file of GiD, as Kratos writes it: write its"},
+      {"MESH \"Kratos_Mesh\" dimension 3", "a file of GiD"},
+      {"Begin ModelPartData\nEnd ModelPartData\n", "a model of Kratos (mdpa)"},
+      {"LSMGeometry 1.2\nBoundingBox 0 0", "a file of ESyS-Particle"},
+      {"V 3\n0 1e-4 2\n", "a file of ESyS-Particle"},
+      {"\x54\0\0\0CORD"s, "a DCD file, which contains positions only"},
       {"\x04\x22\x4d\x18",
        "packed by lz4: decompress it, or compress it by gzip, bzip2, xz or "
        "zstd"},
@@ -71,7 +77,10 @@ TEST(FileKind, OfTextThatIsReadHasNoName)
   for (const char* start :
        {"", "ITEM: TIMESTEP\n0\n", "time,id,x,y\n0,1,0,0\n", "\xef\xbb\xbfid;x\n",
         "2 0.5 0 0 1 1\n0.1 0.2 0 0 0.05 0 -1 0\n", "# 0.5 1\n# 0 0 0 1 1 0\n",
-        "MercuryDPM 0.14 name chute\n", "2\n1\n2 3\n", "% by hand\n"})
+        "MercuryDPM 0.14 name chute\n", "2\n1\n2 3\n", "% by hand\n",
+        // Letters that also begin files in binary.
+        "# RECORDED by hand\nid,x\n", "PAR1,PAR2\n1,2\n", "FEA1 FEA2\n", "LZIP,id\n", "ARROW1\tx\n",
+        "time id DUMPATOM\n", "%PDF,x\n"})
     EXPECT_EQ(other_kind(start), "") << start;
 }
 
@@ -90,6 +99,19 @@ TEST(FileKind, OfFilesThatLammpsAndH5pyWroteIsNamed)
     EXPECT_TRUE(mentions(complaint_about(at + name), at + name + " is " + kind));
   EXPECT_EQ(complaint_about(GRSEG_TEST_INPUTS "/siconos/discs.hdf5"), "no complaint");
   EXPECT_THROW(refuse_other_kind(GRSEG_TEST_INPUTS "/three-grains-closed.h5"), UsageError);
+}
+
+TEST(FileKind, OfBinaryContentThatNothingTellsFollowsFromTheName)
+{
+  const lammps_text::Folder folder;
+  const auto content = "\x07\0\0\0state"s;
+  EXPECT_TRUE(mentions(complaint_about(folder.write("bed.p3sav", content)),
+                       "bed.p3sav is a saved state of a program of Itasca: write its grains"));
+  EXPECT_TRUE(mentions(complaint_about(folder.write("bed.mdem", content)), "a file of MUSEN: "));
+  const auto other = complaint_about(folder.write("bed.bin", content));
+  EXPECT_TRUE(mentions(other, "is not text"));
+  EXPECT_TRUE(mentions(other, "output of other programs as tables (--format csv)"));
+  EXPECT_EQ(complaint_about(folder.write("bed.sav", "id,x\n1,2\n")), "no complaint");
 }
 
 TEST(FileKind, IsRecognisedWhicheverFormatWasNamedAndInAnyFile)
@@ -121,7 +143,7 @@ TEST(FileKind, IsRecognisedInsideACompressedFileToo)
     return out;
   };
   EXPECT_TRUE(
-      mentions(complaint_about(folder.write("a.tar.gz", packed(std::string(257, 'a') + "ustar"))),
+      mentions(complaint_about(folder.write("a.tar.gz", packed(std::string(257, '\0') + "ustar"))),
                "is a tar archive: unpack it"));
   EXPECT_TRUE(mentions(complaint_about(folder.write("a.gz.gz", packed(packed("ITEM: TIMESTEP\n")))),
                        "is packed twice: unpack it once"));

@@ -48,5 +48,14 @@ TEST_F(FirstAnswer, AsksForTheOriginBesideTheSpecies)
   EXPECT_TRUE(mentions(asked, "y = 0: --origin -0.02"));
 }
 
+TEST_F(FirstAnswer, AsksForTheStepUnlessTheTimeBetweenFramesIsTold)
+{
+  auto s = moving_discs();
+  s.step.reset();
+  EXPECT_TRUE(mentions(refusal(s).sentence, "--step DT"));
+  s.interval = 0.01;
+  EXPECT_FALSE(mentions(refusal(s).sentence, "--step"));
+}
+
 }  // namespace
 }  // namespace grseg

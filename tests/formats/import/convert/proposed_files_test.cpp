@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/import/convert/scan.hpp"
+#include "formats/trajectory/hdf5.hpp"
 #include "tests/formats/import/lammps_text.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ class NamedFiles : public testing::Test {
       questions.report();
     } catch (const OpenQuestions& open) {
       return open.options();
-    } catch (const UsageError& error) {
+    } catch (const ToolError& error) {
       return error.what();
     }
     return "";
@@ -71,13 +72,39 @@ TEST_F(NamedFiles, OfLammpsAndLiggghtsAreToldByTheirColumns)
   EXPECT_EQ(written_by("c_c[1] c_c[2] c_c[3] c_c[4] c_c[5] c_c[6]"), "--format liggghts");
 }
 
+/// An HDF5 file with these groups.
+std::string hdf5_with(const std::string& path, const std::vector<std::string>& groups)
+{
+  hdf5::silence();
+  const hdf5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  for (const auto& group : groups) hdf5::make_group(file, group);
+  return path;
+}
+
+TEST_F(NamedFiles, OfUnknownHdf5AreNamedWithTheirGroups)
+{
+  const auto said = [&](const std::vector<std::string>& groups) {
+    return asked(unnamed("", {hdf5_with(folder / "a.h5", groups)}));
+  };
+  EXPECT_TRUE(mentions(said({"bodies", "links"}),
+                       "a.h5 is an HDF5 file of unknown layout, with 'bodies, links' in its root: "
+                       "write its grains and contacts as tables (--format csv)"));
+  EXPECT_TRUE(mentions(said({}), "with nothing in its root"));
+  EXPECT_TRUE(mentions(said({"CreatorData", "TimestepData"}), "is an HDF5 file of EDEM: write"));
+  EXPECT_TRUE(mentions(said({"Step#0", "Step#1"}), "is an H5Part file: write"));
+  EXPECT_TRUE(mentions(said({"Evolution", "Simulation", "Help"}), "--format lmgc90"));
+}
+
 TEST_F(NamedFiles, ThatNoFormatKnowsAreNamedWithTheirFirstLine)
 {
   const auto text = folder.write("notes.txt", "what I did\n");
   EXPECT_TRUE(mentions(
       asked(unnamed("", {grains, text})),
       text + ": its content is not recognised by its first line, 'what I did'; name it with "
-             "--grains or --contacts, and its --format"));
+             "--grains or --contacts, and its --format (lammps, liggghts, "));
+  const auto late = folder.write("late.txt", " \n\nwhat I did\n");
+  EXPECT_TRUE(mentions(asked(unnamed("", {late})), "by its first line, 'what I did'; name it"));
+  EXPECT_TRUE(mentions(asked(unnamed("", {late})), "files of other programs must become tables"));
   EXPECT_TRUE(mentions(asked(unnamed("liggghts", {grains, text})),
                        "is not recognised as that of --format liggghts"));
   const auto table = folder.write("c.csv", "i,j,fx,fy\n");
