@@ -25,10 +25,10 @@ double number_after(const std::string& key, const std::string& file, double othe
 double number_in(const std::string& file, double otherwise)
 {
   double number = 0;
-  return std::ifstream(file) >> number ? number : otherwise;  // "max" is no number
+  return std::ifstream(file) >> number ? number : otherwise;  // none: "max"
 }
 
-/// What the control group in `folder` leaves, if it has a limit; files that only the cache holds
+/// Bytes that the control group in `folder` leaves, if it has a limit; files that only the cache holds
 /// make room.
 double left_by(const std::string& folder, const char* limit, const char* usage)
 {
@@ -38,7 +38,7 @@ double left_by(const std::string& folder, const char* limit, const char* usage)
   return std::max(0.0, number_in(folder + limit, unlimited) - std::max(0.0, used));
 }
 
-/// What the group `group` and all groups above it leave.
+/// The least that the group `group` and the groups above it leave.
 double left_by_all(const std::string& mount, const std::string& group, const char* limit,
                    const char* usage)
 {

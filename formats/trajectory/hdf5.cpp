@@ -100,14 +100,14 @@ int error_of_failure()
   const int error = error_of_failure();
   if (error != 0 && error != EWOULDBLOCK)
     throw RunError(fmt::format("{}: cannot be opened: {}", path, reason(error)));
-  last_system_error = 0;
   const char* why = "is not an HDF5 file, or is truncated or damaged";
   if (error == EWOULDBLOCK)
     why = "is being written by a run; wait until the run has ended, or read a copy";
   else if (writer.any && !writer.swmr)
     why = "is being written, or its writer was killed; wait until it has ended, or write it again";
-  throw FormatError(
-      fmt::format("{}: {}", path, kind_of_file(path).instead_of("a run (HDF5)", why)));
+  const auto kind = kind_of_file(path);
+  last_system_error = 0;  // none of the system's
+  throw FormatError(fmt::format("{}: {}", path, kind.instead_of("a run (HDF5)", why)));
 }
 
 /// The product of two numbers; the largest number if the product overflows.

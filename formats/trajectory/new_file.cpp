@@ -191,6 +191,7 @@ void keep_in_pages(hid_t access)
 
 double size_of_live_file(const LayoutSizes& run, std::size_t observables, bool float32)
 {
+  silence();
   // Bytes of a growing dataset beside its chunks, measured: index, in pages, and header.
   constexpr double index = 4.5 * page + 512;
   const auto round_up = [](auto bytes, auto unit) { return (bytes + unit - 1) / unit * unit; };
