@@ -58,8 +58,7 @@ class H5md3dWriter : public RunWriter {
     box_ = create_element(group + "box/edges", "", H5T_IEEE_F64LE, {3, 3}, scalar_chunk);
     velocities_ = create_element(group + "velocity", "", H5T_IEEE_F64LE, {n, 3});
     if (run_.has_force()) forces_ = create_element(group + "force", "", H5T_IEEE_F64LE, {n, 3});
-    if (run_.has_images())
-      images_ = create_element(group + "image", "", H5T_STD_I32LE, {n, 3});
+    if (run_.has_images()) images_ = create_element(group + "image", "", H5T_STD_I32LE, {n, 3});
     const std::vector<hsize_t> spin_shape =
         run_.dimension() == 2 ? std::vector{n} : std::vector{n, hsize_t{3}};
     spins_ = create_element(group + "angular_velocity", "", H5T_IEEE_F64LE, spin_shape);

@@ -149,8 +149,8 @@ class LammpsWriter : public RunWriter {
     fmt::memory_buffer text;
     const auto end = std::back_inserter(text);
     fmt::format_to(end, "{}id type mass radius x y z{} vx vy vz {}omegaz{}\n",
-                   head(frame, "ATOMS", number_present(frame)), has_images ? " ix iy iz" : "", D == 3 ? "omegax omegay " : "",
-                   has_force ? " fx fy fz" : "");
+                   head(frame, "ATOMS", number_present(frame)), has_images ? " ix iy iz" : "",
+                   D == 3 ? "omegax omegay " : "", has_force ? " fx fy fz" : "");
     for (std::size_t g = 0; g < grains.size(); ++g) {
       if (!is_present(frame, g)) continue;
       const auto& image = frame.image[g];

@@ -15,15 +15,14 @@ namespace {
 
 class ExpectedFile : public testing::TestWithParam<std::vector<std::string>> {};
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ExpectedFile,
-                         testing::Values(std::vector<std::string>{"--depth", "40dS", "--length",
-                                                                  "20dL", "--duration", "2"},
-                                         std::vector<std::string>{"--duration", "0.05"},
-                                         std::vector<std::string>{"--duration", "1",
-                                                                  "--frame-interval", "0.005"},
-                                         std::vector<std::string>{"--duration", "1", "--store", "float32"},
-                                         std::vector<std::string>{"--dimension", "3", "--width",
-                                                                  "4dL", "--duration", "0.2"}));
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ExpectedFile,
+    testing::Values(
+        std::vector<std::string>{"--depth", "40dS", "--length", "20dL", "--duration", "2"},
+        std::vector<std::string>{"--duration", "0.05"},
+        std::vector<std::string>{"--duration", "1", "--frame-interval", "0.005"},
+        std::vector<std::string>{"--duration", "1", "--store", "float32"},
+        std::vector<std::string>{"--dimension", "3", "--width", "4dL", "--duration", "0.2"}));
 
 TEST_P(ExpectedFile, IsAnUpperBoundByAQuarterAtMost)
 {
