@@ -304,6 +304,7 @@ Simulation<D> deposit_visibly(const Scene& scene, const RunOptions& options,
 /// files. Throws UsageError if there is no such file and the link may not be followed.
 std::string followed(const RunOptions& options)
 {
+  refuse_input_as_output(options.output, {options.scene_file, options.restart});
   auto target = behind_links(options.output);
   if (!is_taken(target)) check_output(options.output, options.overwrite, {});
   return target;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """The summary that a page quotes equals the program's output: runs the page's first command, and compares its output
-with the block after "The first command above prints:", except for the elapsed seconds.
+with the block after "The first prints:", except for the elapsed seconds.
 
 Usage: summary_test.py SOURCE BUILD
 """
@@ -13,7 +13,7 @@ import tempfile
 source, build = (os.path.abspath(word) for word in sys.argv[1:])
 page = open(os.path.join(source, "docs", "guide", "simulate.md"), encoding="utf-8").read()
 command = re.search(r"```sh\n(build/bin/grseg-sim .*)\n", page)[1]
-quoted = re.search(r"The first command above prints:\n\n((?:    .*\n)+)", page)[1]
+quoted = re.search(r"The first prints:\n\n((?:    .*\n)+)", page)[1]
 quoted = re.sub("^    ", "", quoted, flags=re.MULTILINE)
 with tempfile.TemporaryDirectory() as folder:
     os.symlink(os.path.join(source, "sim"), os.path.join(folder, "sim"))

@@ -25,8 +25,8 @@ refused() {
   "$@" >said 2>&1 || code=$?
   [ $code = "$expected" ] && grep -q -- "$sentence" said || fail "$name: exit code $code: $(head -1 said)"
 }
-# limited LIMIT...: a command under ulimit LIMIT.
-limited() { bash -c "ulimit $1 $2; shift 2; \"\$@\"" x "$@"; }
+# limited LIMIT...: a command under ulimit LIMIT, without files that the caller has left open.
+limited() { bash -c "for f in {3..20}; do eval \"exec \$f>&-\"; done; ulimit $1 $2; shift 2; \"\$@\"" x "$@"; }
 masked() { bash -c 'umask $1; shift; "$@"' x "$@"; }
 sim=("$bin/grseg-sim" s.ini --quiet)
 

@@ -128,7 +128,10 @@ TEST_F(OutputCheck, RefusesWhatExistsUnlessItMayBeReplaced)
   EXPECT_EQ(complaint(old), "no complaint");
   EXPECT_EQ(complaint(old, false), already_exists(old));
   fs::create_symlink("nowhere", path("soft"));
-  EXPECT_EQ(complaint(path("soft"), false), already_exists(path("soft")));
+  EXPECT_EQ(complaint(path("soft"), false),
+            path("soft") + " is a link to " + path("nowhere") +
+                ", which does not exist; choose another name, remove it, or pass --overwrite to "
+                "write there");
   EXPECT_EQ(complaint(path("new.tsv"), false), "no complaint");
 }
 

@@ -6,7 +6,9 @@
 #include "tests/folder.hpp"
 #include "tests/sim/small_chute.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -29,7 +31,7 @@ TEST_P(ExpectedFile, IsAnUpperBoundByAQuarterAtMost)
   const auto scene = small_chute::scene(GetParam());
   const auto cost = expected_cost(scene);
   RunOptions options;
-  options.output = "expected_cost.h5";
+  options.output = fmt::format("expected_cost_{}.h5", getpid());
   options.overwrite = options.quiet = true;
   simulate(scene, options);
   const auto file = static_cast<double>(std::filesystem::file_size(options.output));

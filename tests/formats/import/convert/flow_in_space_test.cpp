@@ -206,11 +206,12 @@ TEST_F(FlowInSpace, MissingComponentsAreNamed)
     return refusal(settings).sentence;
   };
   for (const char* column : {"vy", "omegax", "fz", "iy"})
-    EXPECT_TRUE(mentions(lammps_without(fmt::format(" {} ", column).c_str(), " other "),
+    EXPECT_TRUE(mentions(lammps_without(fmt::format(" {} ", column).c_str(), " v_other "),
                          fmt::format("needs all components, but there is no {};", column)));
-  EXPECT_TRUE(mentions(lammps_without(" tz\n", " other\n"), "there is no tz; write"));
+  EXPECT_TRUE(mentions(lammps_without(" tz\n", " v_other\n"), "there is no tz; write"));
   auto settings = csv(folder, views()[0]);
   replace(settings, ",vz,wx,wy,wz,", ",a,b,c,wz,");
+  settings.files.map = {"a=,b=,c="};
   replace(settings, "bx;by;bz", "bx;by;other");
   EXPECT_TRUE(
       mentions(refusal(settings).sentence, "there is no vz, nor wx, nor wy, nor bz; write"));

@@ -38,7 +38,7 @@ struct Scene {
   }
   Verification verification(double tolerance = 1e-10) const
   {
-    return {grains, box, gravity, OutputAccuracy{tolerance, false, 0, 0.5}};
+    return {grains, box, gravity, OutputAccuracy{tolerance, false, 1e-12, 0.5}};
   }
   std::string complaint(double tolerance = 1e-10) const
   {
