@@ -183,11 +183,12 @@ std::vector<SpeciesPair> pairs_of(const FitOptions& s, const SpeciesList& specie
 std::vector<SpeciesPair> take_pairs_without_points(std::vector<SpeciesPair>& pairs,
                                                    const FitData& data)
 {
-  const auto fitted = std::ranges::stable_partition(pairs, [&](const SpeciesPair& pair) {
-    return std::ranges::find(data.samples, pair, &LayerSample::pair) != data.samples.end();
-  });
-  std::vector<SpeciesPair> without(fitted.begin(), fitted.end());
-  pairs.erase(fitted.begin(), fitted.end());
+  const auto fitted =
+      std::stable_partition(pairs.begin(), pairs.end(), [&](const SpeciesPair& pair) {
+        return std::ranges::find(data.samples, pair, &LayerSample::pair) != data.samples.end();
+      });
+  std::vector<SpeciesPair> without(fitted, pairs.end());
+  pairs.erase(fitted, pairs.end());
   return without;
 }
 

@@ -206,7 +206,7 @@ std::string reason(int error)
       {EHOSTDOWN, "does its file server still work?"},
       {ETIMEDOUT, "does its file server still work?"},
   };
-  const std::string words = std::strerror(error == no_locks ? ENOLCK : error);
+  std::string words = std::strerror(error == no_locks ? ENOLCK : error);
   for (const auto& [known, text] : remedies)
     if (known == error) return words + "; " + text;
   return words;

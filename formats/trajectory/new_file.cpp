@@ -200,7 +200,8 @@ double size_of_live_file(const LayoutSizes& run, std::size_t observables, bool f
     hsize_t bytes = rows * H5Tget_size(type_of(row.type, float32));
     for (const auto size : shape_of(row.shape.substr(1), run)) bytes *= size;
     const auto all = row.shape[0] == 'C' ? run.contacts : run.frames;
-    return index + static_cast<double>(round_up(bytes, page) * (round_up(all, rows) / rows));
+    const auto chunks = round_up(all, rows) / rows;
+    return index + static_cast<double>(round_up(bytes, page) * chunks);
   };
   const auto& of_observable = row_at("/particles/grains/position/time");
   double bytes = static_cast<double>(observables) * bytes_of(of_observable);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/trajectory/reader.hpp"
 
+#include "formats/core/errors.hpp"
 #include "formats/trajectory/layout.hpp"
 #include "formats/trajectory/row_reader.hpp"
 

@@ -284,8 +284,8 @@ std::string other_kind(std::string_view start)
   const bool is_text = std::none_of(start.begin(), start.end(), [](unsigned char c) {
     return c < ' ' && c != '\t' && c != '\n' && c != '\r';
   });
-  if (const auto kind = named(text_kinds); !kind.empty()) return kind;
-  if (const auto kind = named(binary_kinds); !kind.empty() && !is_text) return kind;
+  if (auto kind = named(text_kinds); !kind.empty()) return kind;
+  if (auto kind = named(binary_kinds); !kind.empty() && !is_text) return kind;
   if (start.starts_with("<?xml"))
     return start.find("<VTKFile") != start.npos ? is_of("a VTK file", from_paraview)
                                                 : is_of("an XML file", to_tables);
