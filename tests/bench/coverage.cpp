@@ -46,7 +46,7 @@ class Tally {
   std::vector<double> widths_;
 };
 
-/// The same layers with mixed contacts that carry the part `mixed` of the stress, to find p*.
+/// Adds mixed contacts, which carry the part `mixed` of the stress of each layer, to find p*.
 constexpr double mixed = 0.4;
 FitData with_mixed_contacts(FitData data)
 {

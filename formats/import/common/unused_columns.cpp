@@ -51,8 +51,12 @@ std::vector<std::string> left_out(const std::vector<std::string>& map)
 {
   std::vector<std::string> names;
   for (const auto& list : map)
-    for (const auto& part : parts_of(list, ','))
-      if (part.ends_with('=')) names.push_back(part.substr(0, part.size() - 1));
+    for (const auto& part : parts_of(list, ',')) {
+      if (!part.ends_with('='))
+        throw UsageError(
+            fmt::format("--map {}: columns of this format can only be left out, by NAME=", part));
+      names.push_back(part.substr(0, part.size() - 1));
+    }
   return names;
 }
 

@@ -15,7 +15,7 @@ namespace grseg {
 std::optional<Question> question_of_columns(const std::vector<std::string>& unused,
                                             const std::string& place);
 
-/// The names that --map leaves out: "a" of "a=,b=x".
+/// The names that --map leaves out: "a" and "b" of "a=,b=". Throws UsageError for other parts.
 std::vector<std::string> left_out(const std::vector<std::string>& map);
 
 }  // namespace grseg

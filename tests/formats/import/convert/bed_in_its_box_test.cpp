@@ -79,6 +79,8 @@ TEST_F(BedInABox, ColumnsWithoutAKnownMeaningAreAskedFor)
   EXPECT_TRUE(mentions(refused.sentence, "--map crystallinity="));
   s.files.map = {"crystallinity="};
   EXPECT_EQ(refusal(s).code, 0);
+  s.files.map = {"crystallinity=x"};
+  EXPECT_TRUE(mentions(refusal(s).sentence, "can only be left out, by NAME="));
   for (const char* known : {"c_stress[1]", "tqz", "mol", "f_wall[1]"})
     EXPECT_EQ(refusal(settings_of("pp ff pp", known)).sentence, "") << known;
 }
