@@ -50,10 +50,28 @@ int rename_unless_taken(const std::string& from, const std::string& to)
   return rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
+/// Keeps signals that end the program waiting while it exists, so that files of a moment are removed.
+class SignalsWait {
+public:
+  SignalsWait()
+  {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+private:
+  sigset_t before_{};
+};
+
 /// Throws RunError unless a file beside `path` can be created, opened again and renamed, as it is
 /// when the work is done.
 void try_to_publish(const std::string& path)
 {
+  const SignalsWait until_removed;
   const RemoveAtEnd before(temporary_path(path) + "a"), after(temporary_path(path) + "b");
   for (const char* question : {"", "; is the umask too strict?"}) {
     const int file = open(before.path().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
