@@ -72,15 +72,6 @@ FrameLoop::FrameLoop(const ToolInfo& info, const po::variables_map& values,
   expect_passes(1);
 }
 
-std::span<const Window> FrameLoop::windows() const
-{
-  const std::span all(windows_.list);
-  if (options_.parts.join > 0) return {};
-  if (!options_.parts.part) return all;
-  const auto [begin, end] = options_.parts.part->range(all.size());
-  return all.subspan(begin, end - begin);
-}
-
 template <int D>
 Layers FrameLoop::map_of(MapPlane plane, const std::optional<Vec2>& axis)
 {
@@ -243,12 +234,6 @@ std::optional<Vec2> FrameOptions::axis(const TrajectoryReader& run) const
 FrameOptions FrameOptions::checked(const po::variables_map& values) const
 {
   auto own = *this;
-  parts.check(output.path);
-  if (const auto& part = parts.part) {
-    if (json)
-      throw UsageError(fmt::format("--part {} writes a table; --json is for --join", part->text()));
-    own.output.path = part->path(output.path, ".tsv");
-  }
   own.output.check(values);
   if (threads < 0 || threads > 1024)
     throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", threads));

@@ -7,7 +7,6 @@
 #include "analysis/frames/map_grid.hpp"
 #include "analysis/frames/windows.hpp"
 #include "formats/cli/output.hpp"
-#include "formats/cli/part.hpp"
 #include "formats/cli/progress.hpp"
 #include "formats/cli/provenance.hpp"
 #include "formats/cli/table.hpp"
@@ -34,7 +33,6 @@ struct FrameOptions {
   bool json = false, quiet = false;
   TrustOption trust;
   GroupingOptions grouping;
-  PartOptions parts;
 
   enum class Makes { table, page };
   /// Adds --output --overwrite --begin --end --stride --layer --window --threads --trust --json
@@ -42,8 +40,6 @@ struct FrameOptions {
   void add_to(po::options_description& options, Makes makes = Makes::table);
   /// Adds --bins, for tools that also offer maps and, if `about_axis`, annuli and maps rz.
   void add_bins_to(po::options_description& options, bool about_axis = true);
-  /// Adds --part and --join, for tools of which each table row depends on one window only.
-  void add_parts_to(po::options_description& options) { parts.add_to(options); }
 
   bool annuli() const { return bins.starts_with("radius"); }
   /// True if grains that have left the bed belong to no bin, since bins have no height of their own
@@ -55,9 +51,8 @@ struct FrameOptions {
   /// run's drum. Nothing for other bins. Throws UsageError if --bins is not a kind of bins, or has
   /// no valid axis.
   std::optional<Vec2> axis(const TrajectoryReader& run) const;
-  /// These options with --threads 0 replaced by the number of processors and, with --part, the
-  /// output replaced by the part's file. Throws UsageError if the output cannot be written, or not
-  /// with these options.
+  /// These options with --threads 0 replaced by the number of processors. Throws UsageError if the
+  /// output cannot be written, or not with these options.
   FrameOptions checked(const po::variables_map& values) const;
 };
 
@@ -94,9 +89,7 @@ class FrameLoop {
   /// (grains_below.hpp); "" if there were none. Maps and annuli contain all grains.
   std::string about_grains_below() const;
   double window_length() const { return windows_.length; }  // length of a window, s
-  /// Windows to sum over: all of them, or the part that --part selects. None with --join, which
-  /// reads the rows from the files of the parts.
-  std::span<const Window> windows() const;
+  std::span<const Window> windows() const { return windows_.list; }
 
   /// Sets how often `sum` will be called for each window (default: once), for the progress bar.
   void expect_passes(int passes);

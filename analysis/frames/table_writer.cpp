@@ -114,38 +114,6 @@ void require_memory(const FrameLoop& loop, std::size_t columns)
       threads > 1 ? " or fewer --threads" : ""));
 }
 
-/// Header line that only the table of a part has (--part).
-HeaderLine part_line(const OutputPart& part)
-{
-  return {"part", part.text()};
-}
-
-/// Reads a part of `table` from the file `path`. `table` has a header and columns, but no rows.
-Table read_part(const Table& table, const OutputPart& part, const std::string& path)
-{
-  const auto remedy =
-      fmt::format("make it with this command and --part {} in place of --join", part.text());
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw UsageError(fmt::format("{} is missing; {}", path, remedy));
-  auto expected = table;
-  expected.header.push_back(part_line(part));
-  expected = Table::parse(expected.to_text(), path);
-  auto found = Table::read(path);
-  const auto [ours, theirs] = std::mismatch(expected.header.begin(), expected.header.end(),
-                                            found.header.begin(), found.header.end());
-  const auto line = [](auto at, auto end) {
-    return at == end ? "no line" : fmt::format("'# {}: {}'", at->first, at->second);
-  };
-  if (ours != expected.header.end() || theirs != found.header.end())
-    throw FormatError(fmt::format("{}: is a part of another table, with {} instead of {}; {}", path,
-                                  line(theirs, found.header.end()),
-                                  line(ours, expected.header.end()), remedy));
-  if (expected.columns != found.columns)
-    throw FormatError(fmt::format("{}: has other columns than this table; {}", path, remedy));
-  return found;
-}
-
 }  // namespace
 
 Table empty_table(const FrameLoop& loop, const std::string& command, const Header& settings,
@@ -221,22 +189,10 @@ void TableWriter::add(std::vector<double> row)
   const auto& options = loop_.options();
   const auto& output = options.output;
   const bool as_it_is = !options.json && !output.prints_short() && output.digits == 0;
-  const bool in_pieces = as_it_is && !is_map_file(output.path) && !is_device(output.path) &&
-                         options.parts.join == 0 && !options.parts.part;
+  const bool in_pieces = as_it_is && !is_map_file(output.path) && !is_device(output.path);
   if (!in_pieces || !GrowingTable::is_large(table_)) return;
   if (!growing_) growing_.emplace(output);
   growing_->add(table_);
-}
-
-Table TableWriter::joined() const
-{
-  const auto& options = loop_.options();
-  auto all = table_;
-  for (std::size_t k = 1; k <= options.parts.join; ++k) {
-    const OutputPart part{k, options.parts.join};
-    add_all(all.rows, read_part(table_, part, part.path(options.output.path, ".tsv")).rows);
-  }
-  return all;
 }
 
 void TableWriter::write(const std::string& next)
@@ -246,14 +202,12 @@ void TableWriter::write(const std::string& next)
   if (const auto remark = loop_.about_grains_below(); !remark.empty() && !options.quiet)
     fmt::print(stderr, "{}: {}\n", loop_.info().name, remark);
   const auto& output = options.output;
-  if (options.parts.join > 0) table_ = joined();
-  if (options.parts.part) table_.header.push_back(part_line(*options.parts.part));
   if (is_map_file(output.path)) return write_map_file(table_, output, {loop_.run().path()});
   if (growing_)
     growing_->finish(std::move(table_));
   else
     write_table(output, options.json ? table_.to_json() : table_.to_text());
-  if (next.empty() || output.path.empty() || options.json || options.parts.part) return;
+  if (next.empty() || output.path.empty() || options.json) return;
   say_next(fmt::format("{} {}", next, shell_word(output.path)), options.quiet);
 }
 

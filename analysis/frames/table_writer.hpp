@@ -24,8 +24,8 @@ std::vector<double> table_row(const FrameLoop& loop, const Window& window, std::
                               const std::vector<double>& values);
 
 /// The table that a tool makes of a run. If it has many rows, they are written at intervals and
-/// removed, so that a table of any size needs little memory. Rows for JSON, short tables, files of
-/// maps and parts remain in memory.
+/// removed, so that a table of any size needs little memory. Rows for JSON, short tables and files
+/// of maps remain in memory.
 class TableWriter {
  public:
   /// Starts with empty_table().
@@ -48,8 +48,6 @@ class TableWriter {
 
  private:
   void add(std::vector<double> row);
-  /// The table with the rows of all parts.
-  Table joined() const;
 
   FrameLoop& loop_;
   Table table_;

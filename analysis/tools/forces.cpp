@@ -35,7 +35,6 @@ po::options_description options_into(Settings& s)
   add("bin", po::value(&s.bin)->default_value(s.bin, "0.1")->value_name("X"),
       "width of the 100 bins, in that unit; a last bin has all larger forces");
   s.frames.add_to(options);
-  s.frames.add_parts_to(options);
   return options;
 }
 

@@ -42,7 +42,6 @@ po::options_description options_into(Settings& s)
           .c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
-  s.frames.add_parts_to(options);
   return options;
 }
 

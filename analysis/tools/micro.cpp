@@ -44,7 +44,6 @@ po::options_description options_into(Settings& s)
       "friction coefficient that decides which contacts slide (default: the run's)");
   s.frames.add_bins_to(options, false);
   s.frames.add_to(options);
-  s.frames.add_parts_to(options);
   return options;
 }
 

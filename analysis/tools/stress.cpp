@@ -46,7 +46,6 @@ po::options_description options_into(Settings& s)
       ("default of grseg-fit, too: volume to divide by: " + list_of(stress_volumes)).c_str());
   s.frames.add_bins_to(options);
   s.frames.add_to(options);
-  s.frames.add_parts_to(options);
   return options;
 }
 

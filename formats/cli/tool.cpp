@@ -176,7 +176,7 @@ std::string command_line(int argc, char** argv)
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
     const auto name = word.substr(0, word.find('='));
-    if (name == "--threads" || name == "--part" || name == "--join") {
+    if (name == "--threads") {
       if (name == word) ++k;
       continue;
     }

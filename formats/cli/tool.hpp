@@ -44,7 +44,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const po::options_desc
 std::string preset_of(const po::variables_map& values);
 
 /// Command line for the history of an output: as typed, but with the program's bare name and
-/// without --threads, --part and --join, which do not affect the output.
+/// without --threads, which does not affect the output.
 std::string command_line(int argc, char** argv);
 
 /// The single run on the command line. Throws UsageError if it names no run or several; for several

@@ -68,9 +68,8 @@ int main(int argc, char** argv)
       settings = with_known_files(settings);
       const auto report = import_archive(settings, command_line(argc, argv));
       if (!settings.quiet) fmt::print(stderr, "{}", to_text(report));
-      if (!settings.parts.part)
-        say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(settings.output)),
-                 settings.quiet);
+      say_next(fmt::format("grseg-stress {} -o stress.tsv", shell_word(settings.output)),
+               settings.quiet);
     } catch (const OpenQuestions& open) {
       throw UsageError(
           fmt::format("{}\nCheck the proposed answers, and fill in the words in capitals:\n  {}",

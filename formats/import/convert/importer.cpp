@@ -12,7 +12,6 @@
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/common/frame_tools.hpp"
 #include "formats/import/common/text_values.hpp"
-#include "formats/import/convert/import_part.hpp"
 #include "formats/import/convert/judgement.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/trajectory/run_description.hpp"
@@ -22,13 +21,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 namespace grseg {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* program = "grseg-import";
 
@@ -53,40 +49,44 @@ SpeciesList with_diameters(SpeciesList list, const Grains& grains, const Units& 
   return list;
 }
 
-const char* source(bool of_the_archive)
-{
-  return of_the_archive ? "archive" : "command line";
-}
-
-/// Adds the parameters that only check_context() reads: the source of each fact (archive or command
-/// line), the archive's axes, the types of species, tolerance, waivers (--accept-residual).
-void add_check_parameters(Parameters& parameters, const VerifiedFrames& frames,
-                          const ImportSettings& settings)
+/// Facts of the run for its checks: what it is, and who states it.
+CheckContext context_of(const RunDescription& run, const VerifiedFrames& frames,
+                        const ImportSettings& settings)
 {
   const auto& archive = frames.archive().facts();
-  auto& directions = parameters.numbers["import_directions"];
-  for (int k = 0; k < 3; ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      directions.push_back(frames.bed().axes.components(Vec3::Unit(axis))[k]);
-  parameters.numbers["import_tolerance_of_program"] = {archive.tolerance};
+  const auto& facts = frames.facts();
+  const auto& frame = frames.scanned().frame;
   const auto& mass = frames.scanned().all_grains().grains.mass;
   const bool has_masses = !mass.empty() && std::all_of(mass.begin(), mass.end(), [](double m) {
     return std::isfinite(m) && m > 0;
   });
-  const auto& frame = frames.scanned().frame;
-  auto& texts = parameters.texts;
-  texts["import_tolerance_reason"] = archive.tolerance_reason;
-  texts["import_gravity"] = source(archive.gravity && !settings.gravity);
-  texts["import_masses"] = source(archive.density.has_value() || has_masses);
-  texts["import_step"] = source(archive.step.has_value() || !frames.facts().knows_step);
-  texts["import_times"] = !frame.time ? "steps" : frame.step ? "both" : "times";
-  if (!frames.facts().doubt_of_masses.empty())
-    texts["import_masses_doubt"] = frames.facts().doubt_of_masses;
-  texts["import_accepted"] = frames.waivers().text();
-  const auto& species = settings.species;
-  if (species.small || species.large)
-    texts["import_types"] =
-        fmt::format("{}\n{}", species.small.value_or(""), species.large.value_or(""));
+  CheckContext context;
+  context.dimension = run.box.dimension;
+  context.has_force = run.has_force;
+  const auto& gravity = run.parameters.numbers.at("gravity");
+  std::copy(gravity.begin(), gravity.end(), context.gravity.begin());
+  for (Eigen::Index k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      context.axes[static_cast<std::size_t>(k)][axis] =
+          frames.bed().axes.components(Vec3::Unit(axis))[k];
+  context.units = facts.units;
+  context.step = facts.step * facts.units.time;
+  context.frame_interval = settings.interval.value_or(0) * facts.units.time;
+  context.gravity_is_given = !archive.gravity || settings.gravity;
+  context.masses_are_given = !archive.density && !has_masses;
+  context.doubt_of_masses = facts.doubt_of_masses;
+  context.step_is_given = !archive.step && facts.knows_step;
+  context.times_are_own = frame.time.has_value();
+  context.steps_are_own = !frame.time || frame.step;
+  context.tolerance = archive.tolerance;
+  context.reason = archive.tolerance_reason;
+  const auto& [small, large] = std::pair(settings.species.small, settings.species.large);
+  context.species =
+      species_sizes(run.grains, species_of(run),
+                    small || large ? small.value_or("") + "\n" + large.value_or("") : "");
+  context.size_ratio = ratio_of_sizes(run.grains);
+  context.waivers = frames.waivers();
+  return context;
 }
 
 /// Description of the run, in SI, as far as it is known before its first frame.
@@ -149,7 +149,7 @@ RunDescription describe(const VerifiedFrames& frames, const ImportSettings& sett
             "its end"
           : "positions, velocities and forces are those of the archive at `time`, not of the middle "
             "of a step";
-  add_check_parameters(run.parameters, frames, settings);
+  texts["import_tolerance_reason"] = frames.archive().facts().tolerance_reason;
   return run;
 }
 
@@ -198,7 +198,8 @@ std::vector<std::string> remarks_of(const VerifiedFrames& frames)
     remarks.emplace_back(
         "ids beyond 2^31 are numbered 1, 2, 3, ... in their order; /parameters/import_ids has the "
         "archive's ids");
-  if (frames.walls()) remarks.push_back(frames.walls()->remark());
+  if (frames.walls())
+    for (auto& remark : frames.walls()->remarks()) remarks.push_back(std::move(remark));
   if (!frames.bed().has_force)
     remarks.emplace_back("the archive has no forces on grains; the trajectory has none either");
   if (!frames.bed().has_angular_velocity)
@@ -239,148 +240,48 @@ void flatten(const Frame<3>& from, Frame<2>& to)
   take(contacts.branch, to.contacts.branch);
 }
 
-/// Verifies all frames and writes them to the file `path`. For a part (import_part.hpp) each frame
-/// is verified by itself; the checks over all frames follow when parts are joined.
-ImportReport convert(VerifiedFrames frames, std::optional<PartPlace> part,
-                     const ImportSettings& settings, const std::string& command_line,
-                     const std::string& path)
+/// The observables of an imported run, and their values in a frame.
+std::vector<Observable> import_observables()
+{
+  auto all = check_observables();
+  all.insert(all.begin(), {"momentum_defect", ""});
+  return all;
+}
+std::vector<double> import_values(const FrameRecord& record)
+{
+  auto values = check_values(record.numbers);
+  values.insert(values.begin(), record.residual ? record.residual->largest : 0);
+  return values;
+}
+
+/// Verifies all frames and writes them to the file `path`.
+ImportReport convert(VerifiedFrames frames, const ImportSettings& settings,
+                     const std::string& command_line, const std::string& path)
 {
   auto run = describe(frames, settings, command_line);
   ImportReport report{run.box.dimension, 0, run.grains.size(), 0, 0, 0, run.parameters, {}, {}};
-  Judgement judgement(run);
-  run.observables = import_observables(part.has_value());
-  if (part) frames.skip(part->begin);
-  const std::size_t in_part = part ? part->end - part->begin : 0;
+  Judgement judgement(run, context_of(run, frames, settings));
+  run.observables = import_observables();
   TrajectoryWriter writer(path, run, settings.storage);
-  ProgressBar progress(program, {.things = "frames", .total = static_cast<double>(in_part)},
-                       settings.quiet);
+  ProgressBar progress(program, {.things = "frames"}, settings.quiet);
   Frame<3> frame;
   Frame<2> flat;
-  while ((!part || report.frames < in_part) && frames.next(frame)) {
+  while (frames.next(frame)) {
     stop_if_interrupted();
     if (frames.complaint()) refuse(frames, judgement);
     frames.facts().units.convert(frame);
     count(report, frame.time, frame.contacts.size());
     const FrameRecord record{frames.residual(), in_si(frames.numbers(), frames.facts().units)};
-    const auto values = import_values(record, part.has_value());
-    if (!part) judgement.add(record, frames.place());
+    const auto values = import_values(record);
+    judgement.add(record, frames.place());
     if (run.box.dimension == 2) flatten(frame, flat);
     run.box.dimension == 2 ? writer.append(flat, values) : writer.append(frame, values);
     progress.show(static_cast<double>(report.frames));
   }
   report.parameters.texts["import_columns"] = frames.archive().columns();
   report.remarks = remarks_of(frames);
-  if (part) {
-    if (report.frames != in_part || (part->part.number == part->part.count && frames.next(frame)))
-      throw RunError(
-          fmt::format("{}: the archive has changed during the "
-                      "import; import it when it is complete",
-                      frames.place()));
-    writer.add_parameters(part->parameters(report));
-  } else {
-    writer.add_parameters(judgement.close(report, settings.strict));
-  }
-  writer.close();
-  if (!part && frames.walls())
-    for (auto& count : frames.walls()->counts()) report.remarks.push_back(std::move(count));
-  return report;
-}
-
-/// Imports without parts. If a frame has other grains, starts again with a scan of all frames.
-ImportReport import_whole(const ImportSettings& settings, const std::string& command_line)
-{
-  Output output(settings.output, settings.overwrite, inputs_of(settings.files));
-  const auto run = [&](Scan how_far) {
-    return convert(VerifiedFrames(scan(settings, how_far), settings), std::nullopt, settings,
-                   command_line, output.temporary());
-  };
-  ImportReport report;
-  try {
-    report = run(Scan::first_frames);
-  } catch (const OtherGrains&) {
-    report = run(Scan::all_frames);
-  }
-  output.publish();
-  return report;
-}
-
-/// Imports a part. Scans all frames first, for their number and grains that enter or leave.
-ImportReport import_part(const ImportSettings& settings, const std::string& command_line)
-{
-  const auto& part = *settings.parts.part;
-  Output output(part.path(settings.output, fs::path(settings.output).extension().string()),
-                settings.overwrite, inputs_of(settings.files));
-  auto scanned = scan(settings);
-  auto roster = scanned.roster();
-  if (!roster) {
-    roster = std::make_shared<const Roster>(read_roster(settings));
-    if (roster->grains_change()) scanned = scan(settings, Scan::all_frames);
-  }
-  const auto [begin, end] = part.range(roster->frames);
-  const PartPlace place{part, begin, end, roster->frames};
-  auto report = convert(VerifiedFrames(std::move(scanned), settings), place, settings, command_line,
-                        output.temporary());
-  output.publish();
-  report.remarks = {
-      fmt::format("part {}: frames {} to {} of {}; checks of all frames are "
-                  "made when parts are joined",
-                  part.text(), begin + 1, end, roster->frames)};
-  return report;
-}
-
-/// Throws FormatError unless the part begins at frame `begin`, behind the parts before it.
-void require_next_part(const ImportPart& first, const ImportPart& part, std::size_t begin,
-                       const std::string& command_line)
-{
-  const auto& ours = part.run().parameters().text("command_line");
-  if (ours != command_line)
-    part.fail(fmt::format("is a part of another import, by '{}'", printable(ours)));
-  if (static_digest(part.description()) != static_digest(first.description()) ||
-      part.place().frames != first.place().frames || part.place().begin != begin)
-    part.fail("is a part of another archive");
-}
-
-template <int D>
-void append_part(TrajectoryWriter& writer, const ImportPart& part, Judgement& judgement,
-                 ImportReport& report, ProgressBar& progress)
-{
-  Frame<D> frame;
-  for (std::size_t k = 0; k < part.run().size(); ++k) {
-    stop_if_interrupted();
-    part.run().read(k, frame, {.velocity = true, .contacts = true, .force = true});
-    count(report, frame.time, frame.contacts.size());
-    const auto record = part.record(k);
-    judgement.add(record, fmt::format("{}, frame {}", part.run().path(), k));
-    writer.append(frame, import_values(record, false));
-    progress.show(static_cast<double>(report.frames));
-  }
-}
-
-ImportReport join_parts(const ImportSettings& settings, const std::string& command_line)
-{
-  const std::size_t parts = settings.parts.join;
-  const ImportPart first(settings.output, {1, parts});
-  auto inputs = inputs_of(settings.files);
-  inputs.push_back(first.run().path());
-  Output output(settings.output, settings.overwrite, inputs);
-  const auto run = first.description();
-  ImportReport report{run.box.dimension, 0, run.grains.size(), 0, 0, 0, run.parameters, {}, {}};
-  TrajectoryWriter writer(output.temporary(), run, settings.storage);
-  Judgement judgement(run, first.run().path());
-  ProgressBar progress(program,
-                       {.things = "frames", .total = static_cast<double>(first.place().frames)},
-                       settings.quiet);
-  for (std::size_t k = 1; k <= parts; ++k) {
-    const ImportPart part(settings.output, {k, parts});
-    require_next_part(first, part, report.frames, command_line);
-    with_dimension(run.box.dimension,
-                   [&](auto d) { append_part<d>(writer, part, judgement, report, progress); });
-    part.add_to(report);
-  }
-  if (report.frames != first.place().frames) first.fail("is a part of another archive");
   writer.add_parameters(judgement.close(report, settings.strict));
   writer.close();
-  output.publish();
   return report;
 }
 
@@ -389,10 +290,19 @@ ImportReport join_parts(const ImportSettings& settings, const std::string& comma
 ImportReport import_archive(const ImportSettings& settings, const std::string& command_line)
 {
   if (settings.output.empty()) scan(settings);  // throws the question for the output file
-  settings.parts.check(settings.output);
-  if (settings.parts.part) return import_part(settings, command_line);
-  if (settings.parts.join > 0) return join_parts(settings, command_line);
-  return import_whole(settings, command_line);
+  Output output(settings.output, settings.overwrite, inputs_of(settings.files));
+  const auto run = [&](Scan how_far) {
+    return convert(VerifiedFrames(scan(settings, how_far), settings), settings, command_line,
+                   output.temporary());
+  };
+  ImportReport report;
+  try {
+    report = run(Scan::first_frames);
+  } catch (const OtherGrains&) {  // a frame has other grains: start with a scan of all frames
+    report = run(Scan::all_frames);
+  }
+  output.publish();
+  return report;
 }
 
 std::string to_text(const ImportReport& report)

@@ -158,17 +158,12 @@ void InferredWalls::add_to(Frame<3>& frame)
   ++frames_;
 }
 
-std::string InferredWalls::remark() const
+std::vector<std::string> InferredWalls::remarks() const
 {
-  return fmt::format(
-      "forces of {} are inferred from the force balance of the grains "
-      "that touch them, so this balance checks nothing",
-      list_of(bed_.walls));
-}
-
-std::vector<std::string> InferredWalls::counts() const
-{
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks{
+      fmt::format("forces of {} are inferred from the force balance of the grains "
+                  "that touch them, so this balance checks nothing",
+                  list_of(bed_.walls))};
   if (contacts_ > 0)
     remarks.push_back(fmt::format("number of grains that touch these walls in a frame: {} to {}",
                                   fewest_, most_));

@@ -31,10 +31,8 @@ class InferredWalls {
 
   /// Flags by row, for the last frame: 1 if the grain's balance was used to infer a wall's force.
   const std::vector<std::uint8_t>& inferred() const { return inferred_; }
-  /// A sentence about the inferred walls, equal for all parts of an import (import_part.hpp).
-  std::string remark() const;
-  /// Sentences with the number of inferred contacts so far.
-  std::vector<std::string> counts() const;
+  /// Sentences about the inferred walls and the contacts with them so far.
+  std::vector<std::string> remarks() const;
 
  private:
   struct Plane {

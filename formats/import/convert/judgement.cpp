@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace grseg {
 namespace {
@@ -29,9 +30,8 @@ std::string failures(const std::vector<Finding>& findings)
 
 }  // namespace
 
-Judgement::Judgement(const RunDescription& run, const std::string& file)
-    : run_(run),
-      context_(check_context(run.grains, species_of(run), run.parameters, run.has_force, file))
+Judgement::Judgement(const RunDescription& run, CheckContext context)
+    : run_(run), context_(std::move(context))
 {
   const auto sizes = context_.waivers.applied_to(judge_sizes(context_));
   if (const auto text = failures({sizes}); !text.empty()) throw CheckError(text);

@@ -59,8 +59,6 @@ class ScannedArchive {
 
   /// Reads the next frame; false at the end. Throws OpenQuestions if the reader needs an answer.
   bool next();
-  /// Reads the next frame without its contacts; false at the end.
-  bool next_grains() { return frames_.next_grains(frame); }
   const Archive& archive() const { return frames_.archive(); }
   /// Sentences about the data left out so far.
   std::vector<std::string> remarks() const;

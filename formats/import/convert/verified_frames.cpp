@@ -33,15 +33,6 @@ VerifiedFrames::VerifiedFrames(ScannedArchive scanned, const ImportSettings& set
   verification_.leave_out(walls_->inferred());
 }
 
-void VerifiedFrames::skip(std::size_t frames)
-{
-  if (frames == 0) return;
-  for (std::size_t k = 2; k < frames; ++k) scanned_.next_grains();
-  if (frames > 1) scanned_.next();
-  Frame<3> before;
-  next(before);
-}
-
 bool VerifiedFrames::next(Frame<3>& frame)
 {
   if (!std::exchange(first_, false) && !scanned_.next()) return false;

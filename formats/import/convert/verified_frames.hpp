@@ -21,9 +21,6 @@ class VerifiedFrames {
   VerifiedFrames(const VerifiedFrames&) = delete;
   VerifiedFrames& operator=(const VerifiedFrames&) = delete;
 
-  /// Skips this number of frames; to be called before the first `next`. Reads their grains only,
-  /// except for the last one, because the check of the next frame's velocities needs it.
-  void skip(std::size_t frames);
   /// Reads the next frame; false at the end. complaint() then describes the frame's error, if any.
   bool next(Frame<3>& frame);
   const std::optional<Complaint>& complaint() const { return complaint_; }

@@ -131,7 +131,6 @@ po::options_description output_options(ImportSettings& s)
                                "write single precision: half the size")(
       "quiet", po::bool_switch(&s.quiet), "print no summary on standard error");
 
-  s.parts.add_to(output);
   add_overwrite_to(output, s.overwrite);
   return output;
 }

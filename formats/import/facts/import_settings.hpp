@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "formats/cli/part.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/facts/species.hpp"
@@ -54,7 +53,6 @@ struct ImportSettings {
   bool strict = false;                       // true: an undecided check is an error
   bool drop_incomplete = false;
   std::string output;
-  PartOptions parts;
   StorageSettings storage;
   bool overwrite = false, quiet = false;
 };

@@ -41,13 +41,6 @@ std::optional<double> Waivers::of(const std::string& check) const
   return found->second;
 }
 
-std::string Waivers::text() const
-{
-  std::vector<std::string> words;
-  for (const auto& [check, value] : largest_) words.push_back(fmt::format("{}={}", check, value));
-  return fmt::format("{}", fmt::join(words, " "));
-}
-
 Finding Waivers::applied_to(Finding finding) const
 {
   const auto largest = of(finding.check);
@@ -76,19 +69,10 @@ namespace {
 /// Ratio of two sizes, below which they count as equal.
 constexpr double one_size = 1.05;
 
-const std::vector<double>& numbers(const Parameters& parameters, const std::string& name,
-                                   std::size_t size, const std::string& file)
-{
-  const auto found = parameters.numbers.find(name);
-  if (found == parameters.numbers.end() || found->second.size() != size)
-    throw FormatError(fmt::format(
-        "{}: /parameters/{} does not have {} numbers: import the archive again", file, name, size));
-  return found->second;
-}
+}  // namespace
 
-/// Sizes of the species that have grains; `types` has a line for each species.
-std::vector<SpeciesSizes> sizes_of(const Grains& grains, const SpeciesList& species,
-                                   const std::string& types)
+std::vector<SpeciesSizes> species_sizes(const Grains& grains, const SpeciesList& species,
+                                        const std::string& types)
 {
   std::istringstream lines(types);
   std::vector<SpeciesSizes> sizes;
@@ -123,47 +107,12 @@ double ratio_of_sizes(const Grains& grains)
   return sum[1] / count[1] / (sum[0] / count[0]);
 }
 
-}  // namespace
-
 double split_of_sizes(const Grains& grains)
 {
   Range radius;
   for (std::size_t g = 0; g < grains.size(); ++g)
     if (is_mobile(grains, g)) radius.add(grains.radius[g]);
   return radius.high > one_size * radius.low ? std::sqrt(radius.low * radius.high) : 0;
-}
-
-CheckContext check_context(const Grains& grains, const SpeciesList& species,
-                           const Parameters& parameters, bool has_force, const std::string& file)
-{
-  CheckContext context;
-  context.has_force = has_force;
-  const auto found = parameters.numbers.find("gravity");
-  const bool in_space = found != parameters.numbers.end() && found->second.size() == 3;
-  const auto& gravity = numbers(parameters, "gravity", in_space ? 3 : 2, file);
-  context.dimension = static_cast<int>(gravity.size());
-  context.gravity = {gravity[0], gravity[1], in_space ? gravity[2] : 0};
-  const auto& axes = numbers(parameters, "import_directions", 9, file);
-  for (std::size_t k = 0; k < 3; ++k)
-    context.axes[k] = {axes[3 * k], axes[3 * k + 1], axes[3 * k + 2]};
-  const auto& units = numbers(parameters, "import_units", 3, file);
-  context.units = {units[0], units[1], units[2]};
-  context.step = parameters.number("step", file);
-  context.frame_interval = parameters.find_number("import_frame_interval").value_or(0);
-  const auto is_own = [&](const char* name) { return parameters.text(name) == "archive"; };
-  context.gravity_is_given = !is_own("import_gravity");
-  context.masses_are_given = !is_own("import_masses");
-  context.doubt_of_masses = parameters.text("import_masses_doubt");
-  context.step_is_given = !is_own("import_step");
-  const auto times = parameters.text("import_times");
-  context.times_are_own = times != "steps";
-  context.steps_are_own = times != "times";
-  context.tolerance = parameters.number("import_tolerance_of_program", file);
-  context.reason = parameters.text("import_tolerance_reason");
-  context.species = sizes_of(grains, species, parameters.text("import_types"));
-  context.size_ratio = ratio_of_sizes(grains);
-  context.waivers = Waivers(parts_of(parameters.text("import_accepted"), ' '));
-  return context;
 }
 
 }  // namespace grseg

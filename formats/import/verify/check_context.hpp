@@ -2,7 +2,6 @@
 #pragma once
 
 #include "formats/core/frame.hpp"
-#include "formats/core/parameters.hpp"
 #include "formats/core/species.hpp"
 #include "formats/core/verdict.hpp"
 #include "formats/import/facts/units.hpp"
@@ -53,9 +52,6 @@ class Waivers {
   {
     return of(check).value_or(otherwise);
   }
-  /// The waivers as text, "balance=0.1 overlap=0.6"; its words are arguments of the constructor.
-  std::string text() const;
-
   /// The finding with the waivers applied: its verdict is `waived` if its measure is accepted.
   Finding applied_to(Finding finding) const;
 
@@ -73,7 +69,7 @@ struct SpeciesSizes {
   double nominal = 0, mean = 0, smallest = 0, largest = 0;
 };
 
-/// Facts of an imported run that the checks need; all are stored in its file.
+/// Facts of an imported run that the checks need.
 struct CheckContext {
   int dimension = 2;
   bool has_force = true;
@@ -95,10 +91,11 @@ struct CheckContext {
   Waivers waivers;
 };
 
-/// Reads the context of an imported run. Throws FormatError naming `file` if it lacks parameters.
-CheckContext check_context(const Grains& grains, const SpeciesList& species,
-                           const Parameters& parameters, bool has_force,
-                           const std::string& file = "");
+/// Sizes of the species that have grains, in the order of `species`; `types` has a line for each.
+std::vector<SpeciesSizes> species_sizes(const Grains& grains, const SpeciesList& species,
+                                        const std::string& types);
+/// Mean radius of larger over mean radius of smaller mobile grains; 1 if all have nearly one size.
+double ratio_of_sizes(const Grains& grains);
 
 /// Radius, m, from which mobile grains count as the larger ones: the geometric mean of the smallest
 /// and the largest radius. 0 if all grains have nearly the same size.

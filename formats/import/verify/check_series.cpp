@@ -10,48 +10,6 @@
 namespace grseg {
 namespace {
 
-/// Calls `visit` with the name, the unit and a reference of every number about a frame.
-template <class Checked, class Visit>
-void visit_numbers(Checked& numbers, const Visit& visit)
-{
-  visit("distance", "", numbers.distance);
-  visit("gap", "", numbers.gap);
-  visit("overlap", "", numbers.overlap);
-  visit("pull", "", numbers.pull);
-  visit("unlisted", "", numbers.unlisted);
-  visit("unlisted_pairs", "", numbers.unlisted_pairs);
-  visit("unlisted_may_part", "", numbers.unlisted_may_part);
-  visit("rigid", "", numbers.rigid);
-  visit("balance", "", numbers.balance);
-  visit("balance_grains", "", numbers.balance_grains);
-  visit("balance_worst", "", numbers.balance_worst);
-  visit("change", "", numbers.change);
-  visit("acceleration", "m s-2", numbers.acceleration);
-  visit("medians", "", numbers.medians);
-  const auto visit_estimate = [&](const std::string& name, auto& estimate) {
-    visit(name + "_grains", "", estimate.grains);
-    visit(name + "_x", "m s-2", estimate.gravity.x());
-    visit(name + "_y", "m s-2", estimate.gravity.y());
-    visit(name + "_z", "m s-2", estimate.gravity.z());
-    visit(name + "_error", "m s-2", estimate.error);
-  };
-  visit_estimate("gravity", numbers.all);
-  visit_estimate("gravity_smaller", numbers.smaller);
-  visit_estimate("gravity_larger", numbers.larger);
-  const auto visit_sums = [&](const std::string& name, auto& sums, const char* square,
-                              const char* fourth) {
-    visit(name + "_grains", "", sums.grains);
-    visit(name + "_xx", square, sums.xx);
-    visit(name + "_xy", square, sums.xy);
-    visit(name + "_yy", square, sums.yy);
-    visit(name + "_xx_xx", fourth, sums.xx_xx);
-    visit(name + "_xx_xy", fourth, sums.xx_xy);
-    visit(name + "_xy_xy", fourth, sums.xy_xy);
-  };
-  visit_sums("motion", numbers.motion, "", "");
-  visit_sums("force", numbers.force, "m2 s-4", "m4 s-8");
-}
-
 /// Relative rounding error of contact forces in text of six digits.
 constexpr double digits = 1e-6;
 /// Limits for a fitted slope: the largest unexplained fraction of the squares of y, and the
@@ -143,30 +101,16 @@ CheckNumbers in_si(CheckNumbers numbers, const Units& units)
 
 const std::vector<Observable>& check_observables()
 {
-  static const auto observables = [] {
-    std::vector<Observable> all;
-    const CheckNumbers numbers;
-    visit_numbers(numbers, [&](const std::string& name, const char* unit, const double&) {
-      all.push_back({"check_" + name, unit});
-    });
-    return all;
-  }();
-  return observables;
+  static const std::vector<Observable> all{{"check_distance", ""}, {"check_gap", ""},
+                                           {"check_overlap", ""},  {"check_pull", ""},
+                                           {"check_unlisted", ""}, {"check_balance", ""}};
+  return all;
 }
 
 std::vector<double> check_values(const CheckNumbers& numbers)
 {
-  std::vector<double> values;
-  visit_numbers(numbers, [&](const std::string&, const char*, const double& value) {
-    values.push_back(value);
-  });
-  return values;
-}
-
-void set_check_values(CheckNumbers& numbers, const std::vector<double>& values)
-{
-  auto value = values.begin();
-  visit_numbers(numbers, [&](const std::string&, const char*, double& place) { place = *value++; });
+  return {numbers.distance, numbers.gap,      numbers.overlap,
+          numbers.pull,     numbers.unlisted, numbers.balance};
 }
 
 std::optional<Estimate> gravity_from(const CheckSeries& series,

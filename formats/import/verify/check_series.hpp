@@ -11,9 +11,8 @@
 #include <optional>
 #include <vector>
 
-/// Numbers that the checks of an import compute from each frame. They are stored with the frame as
-/// observables `check_...`, so that findings can be computed again from the file. If the number of
-/// grains of a group of numbers is 0, the others of the group are 0 and have no meaning.
+/// Numbers that the checks of an import compute from each frame. If the number of grains of a group
+/// of numbers is 0, the others of the group are 0 and have no meaning.
 namespace grseg {
 
 /// An estimate of gravity (m/s^2, in the axes of the flow) from some of the grains of a frame.
@@ -84,10 +83,10 @@ CheckNumbers in_si(CheckNumbers numbers, const Units& units);
 
 using CheckSeries = std::vector<CheckNumbers>;
 
-/// The observables that store the numbers of a frame, and their values, in the same order.
+/// The observables of an imported run that store how well the contacts of a frame fit its grains,
+/// and their values, in the same order.
 const std::vector<Observable>& check_observables();
 std::vector<double> check_values(const CheckNumbers& numbers);
-void set_check_values(CheckNumbers& numbers, const std::vector<double>& values);
 
 /// A vector and its standard error.
 struct Estimate {

@@ -9,8 +9,6 @@
 namespace grseg {
 
 /// The findings of all checks, in the order of check_names, from the frames of an import so far.
-/// They depend only on the arguments, so that joined parts of an import (import_part.hpp) have the
-/// same findings.
 std::vector<Finding> judge(const CheckSeries& series, const CheckContext& context);
 
 /// Findings of single checks, without waivers.

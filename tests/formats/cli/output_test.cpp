@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/cli/output.hpp"
 
-#include "formats/cli/part.hpp"
 #include "formats/core/errors.hpp"
 #include "tests/folder.hpp"
 
@@ -40,27 +39,6 @@ TEST_F(TableOutput, IsCheckedAgainstEveryInputBeforeWorkBegins)
   EXPECT_NO_THROW((OutputOptions{path("c.tsv")}.check(values)));
   EXPECT_NO_THROW((OutputOptions{"-"}.check(values)));
   EXPECT_NO_THROW((OutputOptions{"/dev/null"}.check(values)));
-}
-
-std::string part_of(const std::string& text)
-{
-  PartOptions options;
-  po::options_description all;
-  options.add_to(all);
-  po::variables_map values;
-  po::store(po::command_line_parser({"--part=" + text}).options(all).run(), values);
-  po::notify(values);
-  return options.part->text();
-}
-
-TEST(PartOfAnOutput, IsTwoNumbersOfDigits)
-{
-  EXPECT_EQ(part_of("1/1"), "1/1");
-  EXPECT_EQ(part_of("3/16"), "3/16");
-  for (const char* text :
-       {" 1/2", "+1/2", "1/ 2", "1/+2", "-18446744073709551615/2", "1/2 ", "1/2/", "1//2", "/2",
-        "1/", "1", "12", "0/2", "3/2", "1/10000", "18446744073709551617/2"})
-    EXPECT_THROW(part_of(text), UsageError) << "'" << text << "'";
 }
 
 }  // namespace

@@ -288,55 +288,5 @@ TEST(Undecided, IsInTheFileAndWaivedByName)
   EXPECT_FALSE(lammps_text::mentions(run.parameters().text("import_undecided"), "balance"));
 }
 
-/// Series of checks over the frames of an imported run.
-CheckSeries series_of(const TrajectoryReader& run)
-{
-  CheckSeries series(run.size());
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    series[k].step = run.steps()[k];
-    series[k].time = run.times()[k];
-    std::vector<double> values;
-    for (const auto& observable : check_observables())
-      values.push_back(run.observable(observable.name)[k]);
-    set_check_values(series[k], values);
-  }
-  return series;
-}
-
-// As in a merge of parts, findings follow from the observables and parameters of the file.
-TEST(Findings, FollowFromTheFileAlone)
-{
-  const Folder folder;
-  auto s = of_lammps(folder);
-  s.gravity = text_of(archives[0].gravity);
-  s.output = folder / "run.h5";
-  const auto report = import_archive(s, "grseg-import");
-  const TrajectoryReader run(s.output);
-  const auto context =
-      check_context(run.grains(), run.species(), run.parameters(), run.has_force(), run.path());
-  const auto again = judge(series_of(run), context);
-  ASSERT_EQ(again.size(), report.findings.size());
-  for (std::size_t k = 0; k < again.size(); ++k) {
-    EXPECT_EQ(again[k].check, report.findings[k].check);
-    EXPECT_EQ(again[k].verdict, report.findings[k].verdict);
-    EXPECT_EQ(again[k].sentence, report.findings[k].sentence);
-    EXPECT_EQ(again[k].measure, report.findings[k].measure);
-  }
-}
-
-TEST(Findings, NeedGravityInTwoOrThreeDimensions)
-{
-  const auto complaint = [](const std::vector<double>& gravity) {
-    Parameters parameters;
-    parameters.numbers["gravity"] = gravity;
-    return complaint_of<FormatError>([&] { check_context({}, {}, parameters, true, "run.h5"); });
-  };
-  const std::string sentence =
-      "run.h5: /parameters/gravity does not have 2 numbers: import the archive again";
-  EXPECT_EQ(complaint({9.81}), sentence);
-  EXPECT_EQ(complaint({0, 9.81, 0, 0}), sentence);
-  EXPECT_TRUE(mentions(complaint({0, 9.81}), "/parameters/import_directions"));
-}
-
 }  // namespace
 }  // namespace grseg
