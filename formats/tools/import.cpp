@@ -4,6 +4,7 @@
 #include "formats/cli/tool.hpp"
 #include "formats/cli/words.hpp"
 #include "formats/core/errors.hpp"
+#include "formats/import/common/guarded_reading.hpp"
 #include "formats/import/convert/importer.hpp"
 #include "formats/import/convert/scan.hpp"
 
@@ -63,6 +64,7 @@ int main(int argc, char** argv)
     if (values.count("input") > 0)
       settings.files.unnamed = values["input"].as<std::vector<std::string>>();
     check(settings);
+    continue_in_child(info.name, settings.output);
     listen_to_signals();
     try {
       settings = with_known_files(settings);

@@ -4,7 +4,7 @@
 #include "formats/core/errors.hpp"
 #include "formats/core/files.hpp"
 #include "formats/core/text.hpp"
-#include "formats/import/common/apart.hpp"
+#include "formats/import/common/guarded_reading.hpp"
 #include "formats/import/common/text_source.hpp"
 #include "formats/import/common/text_values.hpp"
 #include "formats/trajectory/file_kind.hpp"
@@ -197,14 +197,10 @@ struct Hdf5Start {
 
 Hdf5Start start_of_hdf5(const std::string& path)
 {
-  Apart apart(path, [&](const Apart::Send& send) {
+  return read_guarded(path, path, [&] {
     const auto file = hdf5::open_for_reading(path);
-    Hdf5Start start{hdf5::names_in(file, "/"), hdf5::exists(file, "/h5md/modules/grseg")};
-    send(packing::packed(start.groups, start.of_grseg));
+    return Hdf5Start{hdf5::names_in(file, "/"), hdf5::exists(file, "/h5md/modules/grseg")};
   });
-  Hdf5Start start;
-  packing::unpack(apart.receive(path), start.groups, start.of_grseg);
-  return start;
 }
 
 /// Says which other program's file this is, like other_kind(), from the names in an HDF5 root.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/errors.hpp"
-#include "formats/import/common/apart.hpp"
+#include "formats/import/common/guarded_reading.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/lmgc90/lmgc90.hpp"
@@ -174,8 +174,8 @@ std::unique_ptr<Archive> open_lmgc90(const ArchiveFiles& files)
   if (!hdf5::is_hdf5(names[0]))
     return std::make_unique<Lmgc90Archive>(bodies, open_lmgc90_texts(names), true);
   if (names.size() != 1) throw UsageError("--grains: a run of LMGC90 is one HDF5 file");
-  hdf5::silence();  // before open_apart(), so that the library is set up once, for both processes
-  return open_apart(names[0], [&] {
+  hdf5::silence();
+  return open_guarded(names[0], [&] {
     return std::make_unique<Lmgc90Archive>(bodies, open_lmgc90_hdf5(names[0]), false);
   });
 }

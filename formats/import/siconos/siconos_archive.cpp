@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/errors.hpp"
-#include "formats/import/common/apart.hpp"
+#include "formats/import/common/guarded_reading.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/archive_files.hpp"
 #include "formats/import/siconos/siconos_bodies.hpp"
@@ -380,8 +380,8 @@ std::unique_ptr<Archive> open_siconos(const ArchiveFiles& files)
 {
   const auto names = archive_files(files.grains, "--grains");
   if (names.size() != 1) throw UsageError("--grains: a Siconos run is one HDF5 file");
-  silence();  // before open_apart(), so that the HDF5 library is set up once, for both processes
-  return open_apart(names[0], [&] {
+  silence();
+  return open_guarded(names[0], [&] {
     return std::make_unique<SiconosArchive>(names[0], open_for_reading(names[0]));
   });
 }

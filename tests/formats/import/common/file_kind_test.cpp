@@ -142,9 +142,10 @@ TEST(FileKind, IsRecognisedInsideACompressedFileToo)
     io::copy(io::array_source(text.data(), text.size()), to);
     return out;
   };
-  EXPECT_TRUE(
-      mentions(complaint_about(folder.write("a.tar.gz", packed(std::string(257, '\0') + "ustar"))),
-               "is a tar archive: unpack it"));
+  std::string tar(257, '\0');
+  tar += "ustar";
+  EXPECT_TRUE(mentions(complaint_about(folder.write("a.tar.gz", packed(tar))),
+                       "is a tar archive: unpack it"));
   EXPECT_TRUE(mentions(complaint_about(folder.write("a.gz.gz", packed(packed("ITEM: TIMESTEP\n")))),
                        "is packed twice: unpack it once"));
 }
