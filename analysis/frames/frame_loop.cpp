@@ -143,8 +143,8 @@ const std::vector<std::string> all_bins{"layers", "radius", "radius:X,Y", "xy",
                                         "xz",     "rz",     "rz:X,Y"};
 const std::vector<std::string> bins_without_axis{"layers", "xy", "xz"};
 
-/// Throws UsageError if the options do not fit a map's file for other programs (.h5, .vti, .pvd).
-void check_map_output(const FrameOptions& options, const po::variables_map& values)
+/// Throws UsageError if the options do not fit a map in HDF5.
+void check_map_output(const FrameOptions& options)
 {
   const auto& output = options.output;
   if (!options.map())
@@ -157,7 +157,6 @@ void check_map_output(const FrameOptions& options, const po::variables_map& valu
     throw UsageError(fmt::format(
         "-o {}: --short and --digits are for text; leave them out, or use a name that ends in .tsv",
         output.path));
-  check_map_file(output, {single_input(values, "a table is made of one run")});
 }
 
 }  // namespace
@@ -197,9 +196,7 @@ void FrameOptions::add_bins_to(po::options_description& options, bool about_axis
           : "layers: parallel to the base. xy, in 3D also xz: a map of square cells";
   options.add_options()(
       "bins", word_option(&bins, about_axis ? all_bins : bins_without_axis),
-      (text + ", also for .h5, .vti and .pvd files. --layer sets the thickness, or the side of a "
-              "cell")
-          .c_str());
+      (text + ", also for .h5 files. --layer sets the thickness, or the side of a cell").c_str());
 }
 
 std::optional<MapPlane> FrameOptions::map() const
@@ -239,7 +236,10 @@ FrameOptions FrameOptions::checked(const po::variables_map& values) const
     throw UsageError(fmt::format("--threads {}: it must be 0 to 1024", threads));
   if (threads == 0)
     own.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  if (is_map_file(output.path)) check_map_output(*this, values);
+  if (is_map_file(output.path)) check_map_output(*this);
+  if (output.path.ends_with(".pvd") || output.path.ends_with(".vti"))
+    throw UsageError(fmt::format(
+        "-o {}: maps are written as .h5, which xarray and h5py read, or as .tsv", output.path));
   return own;
 }
 

@@ -21,7 +21,7 @@ constexpr ToolInfo info{
     "  grseg-kinetic run.h5 --mean layer                mean: of each layer\n"
     "  grseg-kinetic run.h5 --mean instant-unbiased     mean: of each layer in each frame\n"
     "  grseg-kinetic run.h5 --velocity middle           velocities at the middle of time steps\n"
-    "  grseg-kinetic drum.h5 --bins xy --layer 2dS -o flow.pvd        a map, for ParaView\n"
+    "  grseg-kinetic drum.h5 --bins xy --layer 2dS -o flow.h5         a map, for xarray\n"
     "  grseg-kinetic run.h5 | grseg-fit - --quantity kinetic\n",
     presets::kinetic};
 

@@ -48,26 +48,19 @@ std::vector<std::string> map_key_columns(const std::array<std::string, 2>& axes,
 /// Content of a map table. Throws FormatError if `table` is not the table of a map.
 MapTable map_table(const Table& table);
 
-/// True if the ending of a file name selects a map format of other programs:
-///   .h5   HDF5 for h5py, xarray and netCDF: a dataset [time][y][x] for each column, with its unit
-///         in the attribute `units` and dimension scales time (middle of the window), y and x
-///         (middles of the cells); a column z beside a coordinate z is z_all; t0, t1, frames [time], V [y][x], x_edges, y_edges; the header
-///         lines as attributes of the file
-///   .vti  VTK image data for ParaView: an array of cells for each column; one window
-///   .pvd  a list of times and .vti files, one for each window; the .vti files are in a folder of
-///         the same name without .pvd
-bool is_map_file(const std::string& path);
+/// True if the ending of a file name, .h5, asks for a map in HDF5, for h5py, xarray and netCDF: a
+/// dataset [time][y][x] for each column, with its unit in the attribute `units` and dimension scales
+/// time (middle of the window), y and x (middles of the cells); a column z beside a coordinate z is
+/// z_all; t0, t1, frames [time], V [y][x], x_edges, y_edges; the header lines as attributes of the
+/// file.
+inline bool is_map_file(const std::string& path)
+{
+  return path.ends_with(".h5");
+}
 
-/// Check before work begins. Throws the errors of check_output() if the map file may not be
-/// written, and UsageError if the folder of a .pvd file may not be written.
-void check_map_file(const OutputOptions& output, const std::vector<std::string>& inputs);
-
-/// Writes the table of a map, whole or not at all. Throws UsageError for a .vti file if there are
-/// several windows, RunError if the system fails.
+/// Writes the table of a map to such a file, whole or not at all. Throws RunError if the system
+/// fails.
 void write_map_file(const Table& table, const OutputOptions& output,
                     const std::vector<std::string>& inputs);
-
-/// Writes a map as an HDF5 file (.h5, is_map_file()) to `path`; messages call the file `name`.
-void write_map_hdf5(const MapTable& map, const std::string& path, const std::string& name);
 
 }  // namespace grseg

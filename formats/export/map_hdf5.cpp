@@ -97,9 +97,12 @@ std::string dataset_name(const std::string& column, const MapTable& map)
 
 }  // namespace
 
-void write_map_hdf5(const MapTable& map, const std::string& path, const std::string& name)
+void write_map_file(const Table& table, const OutputOptions& output,
+                    const std::vector<std::string>& inputs)
 {
-  MapFile file(path, name);
+  const auto map = map_table(table);
+  Output whole(output.path, output.overwrite, inputs);
+  MapFile file(whole.temporary(), output.path);
   for (const auto& [key, value] : map.header) file.attribute(key, value);
   file.scale("time", "s", of_windows(map, &MapTable::Window::middle));
   for (const auto& axis : map.axes) {
@@ -116,6 +119,7 @@ void write_map_hdf5(const MapTable& map, const std::string& path, const std::str
   for (const auto& field : map.fields)
     file.field(dataset_name(field.name, map), field.unit, {"time", second, first}, field.values);
   file.close();
+  whole.publish();
 }
 
 }  // namespace grseg

@@ -15,13 +15,11 @@ template <class Number>
 std::string VtkArrays::add(const std::string& name, const Number* values, std::size_t count,
                            int components)
 {
-  const char* type = std::is_same_v<Number, double>  ? "Float64"
-                     : std::is_same_v<Number, float> ? "Float32"
-                                                     : "Int32";
-  const auto many = components == 0 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
+  const char* type = std::is_same_v<Number, float> ? "Float32" : "Int32";
   auto xml = fmt::format(
-      "        <DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n", type,
-      name, many, bytes_.size());
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
+      "offset=\"{}\"/>\n",
+      type, name, components, bytes_.size());
   const std::uint64_t length = count * sizeof(Number);
   bytes_.append(reinterpret_cast<const char*>(&length), sizeof length);
   bytes_.append(reinterpret_cast<const char*>(values), length);
@@ -29,7 +27,6 @@ std::string VtkArrays::add(const std::string& name, const Number* values, std::s
 }
 
 template std::string VtkArrays::add(const std::string&, const float*, std::size_t, int);
-template std::string VtkArrays::add(const std::string&, const double*, std::size_t, int);
 template std::string VtkArrays::add(const std::string&, const std::int32_t*, std::size_t, int);
 
 std::string VtkArrays::end() const

@@ -13,11 +13,9 @@ namespace grseg {
 /// each array preceded by its length (8 bytes).
 class VtkArrays {
  public:
-  /// Adds an array of `count` numbers (float, double or std::int32_t). Returns its XML line, which
-  /// states the number of components unless that is 0.
+  /// Adds an array of `count` numbers (float or std::int32_t). Returns its XML line.
   template <class Number>
-  std::string add(const std::string& name, const Number* values, std::size_t count,
-                  int components = 0);
+  std::string add(const std::string& name, const Number* values, std::size_t count, int components);
   /// End of the file: the raw bytes of all arrays, and the closing XML.
   std::string end() const;
 

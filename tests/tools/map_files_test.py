@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Maps in files contain the numbers of the table: HDF5 with coordinates is read by h5py, VTK image data by
-an XML parser. Impossible names and settings are refused.
+"""Maps in HDF5 contain the numbers of the table, with coordinates, as h5py reads them. Impossible names and
+settings are refused.
 Usage: map_files_test.py GRSEG-STRESS GRSEG-KINETIC GRSEG-MICRO GRSEG-FIT RUN.h5
 """
 import os
@@ -8,7 +8,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree
 
 import h5py
 import numpy as np
@@ -93,56 +92,6 @@ def check_hdf5(tool, name):
     os.remove("again.h5")
 
 
-def image(name):
-    """Cell arrays of a .vti by name, and the attributes of its grid."""
-    head, _, data = open(name, "rb").read().partition(b"\n_")
-    tree = xml.etree.ElementTree.fromstring(head + b"</AppendedData></VTKFile>")
-    assert tree.attrib == {"type": "ImageData", "version": "1.0", "byte_order": "LittleEndian",
-                           "header_type": "UInt64"}
-    grid = tree.find("ImageData")
-    assert grid.find("Piece").get("Extent") == grid.get("WholeExtent")
-    arrays = {}
-    for entry in grid.find("Piece/CellData"):
-        assert entry.get("type") == "Float64"
-        begin = int(entry.get("offset"))
-        size = int(np.frombuffer(data, "<u8", 1, begin)[0])
-        arrays[entry.get("Name")] = np.frombuffer(data[begin + 8:begin + 8 + size], "<f8")
-    texts = {entry.get("Name"): "".join(map(chr, map(int, entry.text.split()[:-1])))
-             for entry in grid.findall("FieldData/Array")}
-    numbers = {entry.get("Name"): float(entry.text)
-               for entry in grid.findall("FieldData/DataArray")}
-    return grid.attrib, arrays, texts, numbers
-
-
-def check_vtk(tool):
-    header, columns, names = table_of(tool)
-    nx, ny = map(int, header["cells"][0].split())
-    begins = sorted(set(columns["t0[s]"]))
-    listed = xml.etree.ElementTree.parse(written(tool, "map.pvd")).findall("Collection/DataSet")
-    assert len(listed) == len(begins)
-    for k, entry in enumerate(listed):
-        grid, arrays, texts, numbers = image(entry.get("file"))
-        rows = columns["t0[s]"] == begins[k]
-        assert grid["WholeExtent"] == f"0 {nx} 0 {ny} 0 0"
-        assert np.array_equal(list(map(float, grid["Origin"].split())),
-                              [columns["x0[m]"].min(), columns["y0[m]"].min(), 0])
-        sides = list(map(float, header["cell"][0].split()))
-        assert np.allclose(list(map(float, grid["Spacing"].split()))[:2], sides, rtol=1e-14)
-        assert float(entry.get("timestep")) == numbers["TimeValue"] == (numbers["t0"] + numbers["t1"]) / 2
-        assert numbers["t0"] == begins[k] and numbers["frames"] == columns["frames"][rows][0]
-        for column in names[7:]:
-            same(arrays[column.replace("[", " (").replace("]", ")")], columns[column][rows], column)
-        assert texts["program"] == header["program"][0] and texts["bins"] == "xy"
-    refused = call(tool, run, *MAP, "-o", "map.pvd")
-    assert refused.returncode == 2 and "already exists" in refused.stderr
-    assert call(tool, run, *MAP, "--overwrite", "-o", "map.pvd").returncode == 0
-    several = call(tool, run, *MAP, "-o", "one.vti")
-    assert several.returncode == 2 and "use -o one.pvd" in several.stderr, several.stderr
-    one = [*MAP, "--begin", str(begins[-1])]
-    assert call(tool, run, *one, "-o", "one.vti").returncode == 0
-    same(image("one.vti")[1]["V (m^2)"], arrays["V (m^2)"], "V")
-
-
 def check_refusals():
     def refused(words, code, sentence):
         done = call(*words)
@@ -163,18 +112,15 @@ def check_refusals():
         subprocess.run([kinetic, run, *MAP, "--mean", mean], check=True, capture_output=True)
     assert not re.search("radius:|rz", subprocess.run([micro, "--help"], check=True, capture_output=True, text=True).stdout)
     refused([stress, run, "--bins", "xy", "--layer", "1e-6m"], 1, "the cells are too small")
-    refused([stress, run, "--bins", "xy", "--json", "-o", "map.vti"], 2, "--json writes text")
+    refused([stress, run, "--bins", "xy", "--json", "-o", "map.h5"], 2, "--json writes text")
     assert call(stress, run, *MAP, "-o", "map.tsv").returncode == 0
     assert call(stress, run, *MAP[2:], "-o", "layers.tsv").returncode == 0
     refused([fit, "map.tsv", "layers.tsv"], 3, "map.tsv has the cells of a map (xy) and layers.tsv has layers; fit them")
     refused([fit, "map.tsv", "--min-shear", "1"], 2, "use it with --quantity kinetic")
     refused([fit, "map.tsv", "--heights", "1000m:"], 1, "outside --heights")
     refused([merge, "map.tsv"], 3, "map.tsv: the table is a map (bins: xy)")
-    os.mkdir("mine")
-    refused([stress, run, *MAP, "-o", "mine.pvd"], 2, "already exists")
-    refused([stress, run, *MAP, "-o", "mine.pvd", "--overwrite"], 2, "contains no 000000.vti")
-    assert sorted(os.listdir()) == ["flow.h5", "layers.tsv", "map", "map.pvd", "map.tsv", "micro.h5", "mine", "one.vti",
-                                    "stress.h5"], os.listdir()
+    refused([stress, run, *MAP, "-o", "map.pvd"], 2, "maps are written as .h5, which xarray and h5py read, or as .tsv")
+    assert sorted(os.listdir()) == ["flow.h5", "layers.tsv", "map.tsv", "micro.h5", "stress.h5"], os.listdir()
 
 
 def check_sums():
@@ -255,7 +201,6 @@ def check_b():
 check_hdf5(stress, "stress.h5")
 check_hdf5(kinetic, "flow.h5")
 check_hdf5(micro, "micro.h5")
-check_vtk(stress)
 check_refusals()
 check_sums()
 check_b()
