@@ -149,7 +149,7 @@ class Numbers(dict):
 def by_rule(rows):
     """The numbers of grseg-fit as one dictionary per rule, flow and pair; `rows` has a row per number. Keys: rule, flow,
     pair, and NAME, NAME_low, NAME_high for every quantity. B has the interval over the population of --over; B_OVER
-    (B_windows, B_equal_flows ...) has the interval over each known population. Numbers without a rule (p_zero, dB_dp,
+    (B_windows, B_flows ...) has the interval over each known population. Numbers without a rule (p_zero, dB_dp,
     Phi_L ...) are added to all rules. degrees_of_freedom are those of B. A missing number is nan."""
     found, common = {}, {}
     for row in rows:

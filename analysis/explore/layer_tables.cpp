@@ -212,7 +212,7 @@ Json balance_table(FrameLoop& loop)
   const auto& layers = loop.layers();
   const auto& run = loop.run();
   const auto& species = loop.species();
-  const Kernel kernel(KernelShape::gauss, run.small_diameter());
+  const Kernel kernel(run.small_diameter());
   const std::string unit = D == 3 ? "[N/m^3]" : "[N/m^2]";
   LayerTable table(
       "balance", "grseg-balance",

@@ -235,30 +235,7 @@ StandardError Errors::over(Population population, const Influence& influence) co
 {
   if (population == Population::windows)
     return deviation_of_windows(influence.noise, weight_, runs_, taken_).error();
-  if (population == Population::compositions)
-    return deviation_of_runs(by_run(influence.noise, runs_), by_run(weight_, runs_)).error();
   return added(listed(flows_, [&](const Flow& flow) { return of_flow(flow, influence); }));
-}
-
-double Errors::chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const
-{
-  double sum = 0, all = 0, within = 0, of_means = 0;
-  std::size_t runs = 0;
-  for (const auto& flow : flows_) {
-    const Eigen::VectorXd value = of_runs(flow.runs, influence).cwiseQuotient(flow.weight);
-    const double weight = flow.weight.sum(), mean = flow.weight.dot(value) / weight;
-    within += flow.weight.dot((value.array() - mean).square().matrix());
-    of_means += weight * mean * mean;
-    sum += weight * mean;
-    all += weight;
-    runs += flow.runs.size();
-  }
-  const auto within_degrees = static_cast<double>(runs - flows_.size());
-  if (flows_.size() < 2 || !(within_degrees > 0) || !(within > 0)) return 1;
-  const double between_degrees = std::max(1.0, static_cast<double>(flows_.size()) - fitted);
-  const double between = of_means - sum * sum / all;
-  return gsl_cdf_fdist_Q(between / between_degrees / (within / within_degrees), between_degrees,
-                         within_degrees);
 }
 
 std::size_t Errors::single_runs() const

@@ -113,15 +113,9 @@ class Errors {
   Errors(const FitData& data, const WindowSums& windows,
          double Estimators::*place = &Estimators::B);
 
-  /// Error over a population. Over windows it follows from their noise; over compositions from the
-  /// noise of whole runs, whatever their flow; otherwise it is the sum of the errors of the flows,
-  /// each from its whole runs. The windows of a flow with a single run replace its runs.
+  /// Error over a population. Over windows it follows from their noise; otherwise it is the
+  /// sum of the errors of the flows, each from its whole runs. The windows of a flow with a single run replace its runs.
   StandardError over(Population population, const Influence& influence) const;
-  /// Probability of differences between flows at least as large as the measured ones if all flows
-  /// were alike; 1 if unknown. Fisher's test compares influence/weight of runs, as mean squares
-  /// between and within flows. `fitted`: degrees of freedom of the differences between flows that
-  /// were subtracted from the influence beforehand; at least one degree is assumed to remain.
-  double chance_of_likeness(const Eigen::VectorXd& influence, double fitted) const;
   /// Number of flows with a single run.
   std::size_t single_runs() const;
 

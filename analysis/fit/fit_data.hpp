@@ -23,25 +23,18 @@ namespace grseg {
 /// The statistical population that a 95 % interval refers to, and with it the number that is
 /// estimated. Runs that differ only in their seed belong to one flow.
 enum class Population {
-  automatic,     ///< `windows` for one run, `runs` for several of one flow, `flows` for several
-  windows,       ///< these very runs, if they had lasted longer
-  runs,          ///< all runs that one flow could have
-  flows,         ///< all runs that these flows could have, each flow with its weight in the data
-  equal_flows,   ///< all runs that these flows could have, all flows with the same weight
-  random_flows,  ///< all flows, these being a random sample; estimates the mean over all
-  compositions,  ///< all runs, if B is one function of composition that is common to all flows
+  automatic,  ///< `windows` for one run, `runs` for several of one flow, `flows` for several
+  windows,    ///< these very runs, if they had lasted longer
+  runs,       ///< all runs that one flow could have
+  flows,      ///< all runs that these flows could have, each flow with its weight in the data
 };
 inline constexpr Choice<Population> populations[] = {
     {"windows", Population::windows, "these runs, if they had lasted longer"},
     {"runs", Population::runs, "all runs that this flow could have"},
-    {"flows", Population::flows, "all runs of these flows, each flow with its weight in the data"},
-    {"equal-flows", Population::equal_flows, "all runs of these flows, all flows weighted equally"},
-    {"random-flows", Population::random_flows, "all flows, of which these are a random sample"},
-    {"compositions", Population::compositions,
-     "all runs with these compositions, if B depends only on composition"}};
+    {"flows", Population::flows, "all runs of these flows, each flow with its weight in the data"}};
 
 /// Replaces Population::automatic by the population for these numbers of runs and flows; returns
-/// any other population unchanged, except that `compositions` of a single run become `windows`.
+/// any other population unchanged.
 Population resolved(Population over, std::size_t runs, std::size_t flows);
 
 /// Sentence, without full stop, that names the estimated number and the population; `flows` is the

@@ -37,103 +37,18 @@ std::vector<FitPoint> points_per_size(const std::vector<FitPoint>& points)
   return scaled;
 }
 
-/// The exponent a of all points together, without distinction of flows.
-Measured pooled_exponent(const FitData& data, const PartitionRule& rule,
-                         const FitSettings& settings)
-{
-  const auto points = points_per_size(fit_points(data, rule, settings));
-  constexpr auto exponent = &Estimators::minus_ln_s;
-  const double a = estimators_of(points).*exponent;
-  if (points.empty()) return {a};
-  const auto windows = window_sums(points, data.runs);
-  const auto over = resolved(settings.over, data.runs.size(), data.number_of_flows());
-  return {a, Errors(data, windows, exponent).over(over, influence_on(exponent, windows))};
-}
-
 }  // namespace
 
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
-  const bool equal = settings.over == Population::equal_flows;
-  if (data.number_of_flows() == 1 || (!equal && settings.over != Population::random_flows))
-    return pooled_exponent(data, rule, settings).estimate();
-  auto of_one = settings;
-  of_one.over = Population::automatic;
-  std::vector<Measured> of_each;
-  for (const auto flow : std::set(data.flows.begin(), data.flows.end()))
-    of_each.push_back(pooled_exponent(of_flow(data, flow), rule, of_one));
-  const auto mean = mean_of_equals(of_each);
-  return (equal ? mean.by_errors : mean.by_scatter).around(mean.value);
+  const auto points = points_per_size(fit_points(data, rule, settings));
+  constexpr auto exponent = &Estimators::minus_ln_s;
+  const double a = estimators_of(points).*exponent;
+  if (points.empty()) return {a, no_number, no_number};
+  const auto windows = window_sums(points, data.runs);
+  const auto over = resolved(settings.over, data.runs.size(), data.number_of_flows());
+  return Errors(data, windows, exponent).over(over, influence_on(exponent, windows)).around(a);
 }
-
-namespace {
-
-/// The unweighted mean of of(fit) over flows.
-template <class Of>
-MeanOfEquals mean_of(const std::vector<RuleFit>& flows, const Of& of)
-{
-  std::vector<Measured> numbers;
-  std::ranges::transform(flows, std::back_inserter(numbers), of);
-  return mean_of_equals(numbers);
-}
-
-MeanOfEquals mean_of(const std::vector<RuleFit>& flows, double Estimators::*place)
-{
-  return mean_of(flows, [place](const RuleFit& fit) {
-    return Measured{fit.value.*place, {fit.error.*place, fit.degrees}};
-  });
-}
-
-/// Replaces all numbers of `all` by their unweighted means over flows.
-void take_mean(RuleFit& all, const std::vector<RuleFit>& flows)
-{
-  const bool random = all.over == Population::random_flows;
-  const auto error_of = [random](const MeanOfEquals& mean) {
-    return random ? mean.by_scatter : mean.by_errors;
-  };
-  for (const auto& [name, place] : estimator_columns) {
-    const auto mean = mean_of(flows, place);
-    all.value.*place = mean.value;
-    set_error(all, place, error_of(mean));
-  }
-  const auto take = [&](const auto& of) {
-    const auto mean = mean_of(flows, [&](const RuleFit& fit) { return of(fit); });
-    of(all) = {mean.value, error_of(mean)};
-  };
-  take([](auto& fit) -> auto& { return fit.minus_size; });
-  take([](auto& fit) -> auto& { return fit.line.p_zero; });
-  take([](auto& fit) -> auto& { return fit.line.dB_dp; });
-  for (const auto place : {&RuleFit::neutral, &RuleFit::share})
-    all.*place = mean_of(flows, [place](const RuleFit& fit) { return Measured{fit.*place}; }).value;
-}
-
-/// Warning about the interval of a mean over flows; "" if there is none.
-std::string doubt_of_mean(const RuleFit& all, const std::vector<RuleFit>& flows)
-{
-  if (all.over == Population::equal_flows)
-    return doubt_of_flows(
-        all, static_cast<std::size_t>(std::ranges::count(flows, 1U, &RuleFit::runs)), flows.size());
-  return flows.size() > 3
-             ? ""
-             : fmt::format(
-                   "{} flows show little of how flows differ; four or more give a narrower "
-                   "interval",
-                   flows.size());
-}
-
-/// Adds B over equal and over random flows. If all.over is one of the two, replaces all other
-/// numbers of `all` by means over flows, too.
-void combine(RuleFit& all, const std::vector<RuleFit>& flows)
-{
-  const auto b = mean_of(flows, &Estimators::B);
-  all.at(Population::equal_flows) = b.by_errors.around(b.value);
-  all.at(Population::random_flows) = b.by_scatter.around(b.value);
-  if (all.over != Population::equal_flows && all.over != Population::random_flows) return;
-  take_mean(all, flows);
-  all.doubt = doubt_of_mean(all, flows);
-}
-
-}  // namespace
 
 FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings)
 {
@@ -150,7 +65,6 @@ FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSett
     fits.of_each.push_back(fit(of_flow(data, flow), of_one));
     fits.of_each.back().flow = flow;
   }
-  combine(fits.all, fits.of_each);
   return fits;
 }
 

@@ -19,8 +19,7 @@ namespace grseg {
 /// diameter, surface or volume of one grain. For any two species ln(sigma^nu/sigma^mu) -
 /// ln(phi^nu/phi^mu) = a ln(s_nu/s_mu); a is the weighted least-squares slope of this line through
 /// the origin, over the samples of all pairs in `data`. For two species a = minus_ln_s/ln r
-/// (estimators.hpp), r = d_L/d_S. Over equal or random flows a is the mean of the flows' exponents.
-/// NaN if there are no points.
+/// (estimators.hpp), r = d_L/d_S. NaN if there are no points.
 Estimate size_exponent(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
 /// Fit of one rule to all flows together and to each flow; `of_each` is empty if there is only one.
@@ -31,11 +30,6 @@ struct FlowFits {
 
 /// Fits one pair of species. The interval of each single flow is over the flow's runs, or over its
 /// windows if it has one run, independent of settings.over.
-///
-/// For Population::equal_flows each number of FlowFits::all is the unweighted mean over the flows,
-/// and the flows' errors are added (confidence.hpp). For Population::random_flows the mean is the
-/// same, and its error is the scatter of the n flows' values, with n - 1 degrees of freedom.
-/// RuleFit::at() returns B for both, whatever settings.over is.
 FlowFits fit_flows(const FitData& data, const PartitionRule& rule, const FitSettings& settings);
 
 /// Reads a pair of species from `text`, by name ("AM,SE") or by number from 1 ("1,3"). Throws

@@ -204,21 +204,13 @@ void require_population(const FitOptions& s, const FitData& data)
                     "own interval, --over flows gives one number for all, and --flows says "
                     "which tables belong together",
                     flows));
-  if ((over == Population::runs || over == Population::compositions) && data.runs.size() < 2)
-    throw UsageError(fmt::format(
-        "--over {}: there is one run; name tables of several runs, or use --over windows", s.over));
-  const bool of_flows = over == Population::flows || over == Population::equal_flows ||
-                        over == Population::random_flows;
-  if (of_flows && flows < 2)
-    throw UsageError(fmt::format(
-        "--over {}: all tables are of one flow; leave the option out, or say with --flows "
-        "which tables belong together",
-        s.over));
-  if (!s.scan.empty() && (over == Population::equal_flows || over == Population::random_flows))
+  if (over == Population::runs && data.runs.size() < 2)
     throw UsageError(
-        fmt::format("--scan: B(p) has no intervals over {}; choose --over flows or windows, or "
-                    "scan each flow by itself",
-                    s.over));
+        "--over runs: there is one run; name tables of several runs, or use --over windows");
+  if (over == Population::flows && flows < 2)
+    throw UsageError(
+        "--over flows: all tables are of one flow; leave the option out, or say with --flows which "
+        "tables belong together");
 }
 
 /// Population of the intervals: "runs", or "runs, then flows" if each flow has its own rows.

@@ -19,11 +19,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Variance of the kernel of a table over the squared thickness of its layers; 0 without a kernel.
 double variance_of_kernel(const Table& table)
 {
-  const auto assign = header_or(table, "assign", "");
-  const auto kernel = std::ranges::find(kernel_shapes, assign, &Choice<KernelShape>::word);
-  if (kernel == std::end(kernel_shapes)) return 0;
+  constexpr Choice<double> kernels[] = {// variance over width^2; two are of version 1.0
+                                        {"gauss", 1},
+                                        {"lucy", 2.0 / 21},
+                                        {"heaviside", 1.0 / 3}};
+  const auto kernel =
+      std::ranges::find(kernels, header_or(table, "assign", ""), &Choice<double>::word);
+  if (kernel == std::end(kernels)) return 0;
   const double width = table.header_positive("width") / table.header_positive("layer");
-  return Kernel(kernel->value, width).variance();
+  return kernel->value * width * width;
 }
 
 /// The period along an axis of a map, m.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "analysis/fit/rule_fit.hpp"
 
-#include "analysis/statistics/composition_fit.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,23 +27,9 @@ void add_intervals(RuleFit& fit, const FitData& data, const WindowSums& windows)
     if (place != &Estimators::B) continue;
     std::vector<Population> known{Population::windows};
     if (fit.runs > 1)
-      known.insert(known.end(),
-                   {Population::compositions,
-                    data.number_of_flows() > 1 ? Population::flows : Population::runs});
+      known.push_back(data.number_of_flows() > 1 ? Population::flows : Population::runs);
     for (const auto over : known) fit.at(over) = errors.over(over, influence).around(fit.value.B);
   }
-}
-
-/// Degrees of freedom of the differences between flows that the regression on composition
-/// (composition_fit.hpp) removed from the noise.
-double degrees_taken_by_composition(const FitData& data)
-{
-  const auto flow_of_window = data.flows_of_windows();
-  const auto flow = listed(
-      data.samples, [&](const LayerSample& sample) { return flow_of_window[sample.window]; });
-  return CompositionFit(numbers_of(data.samples, &LayerSample::phi_large),
-                        numbers_of(data.samples, &LayerSample::weight_in_b))
-      .degrees(flow);
 }
 
 /// doubt_of_runs, with what these very runs tell.
@@ -65,18 +49,7 @@ std::string doubt_of(const RuleFit& fit, const FitData& data, const WindowSums& 
     return doubt_of_windows(windows.excess_noise(), weight, data.runs);
   const auto flows = data.number_of_flows();
   if (flows == 1) return doubt_of_few_runs(by_run(weight, data.runs));
-  const Errors errors(data, windows);
-  if (fit.over == Population::compositions) {
-    const double chance = errors.chance_of_likeness(influence_on(&Estimators::B, windows).noise,
-                                                    degrees_taken_by_composition(data));
-    if (chance >= 0.05) return doubt_of_few_runs(by_run(weight, data.runs));
-    return fmt::format(
-        "flows differ by more than one function of composition explains (Fisher's test: {:.2g}): "
-        "the interval over compositions is too wide for these flows and too narrow for others; "
-        "see the intervals over flows, equal-flows and random-flows",
-        chance);
-  }
-  return doubt_of_flows(fit, errors.single_runs(), flows);
+  return doubt_of_flows(fit, Errors(data, windows).single_runs(), flows);
 }
 
 /// Largest part of B that gradients inside the layers can add. If phi_L, phi_S and the stress are

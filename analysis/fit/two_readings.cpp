@@ -65,8 +65,6 @@ void add_differences(std::vector<RuleFit>& fits, const FitSource& source, const 
                      const FitSettings& settings)
 {
   for (auto& fit : fits) {
-    if (fit.over == Population::equal_flows || fit.over == Population::random_flows)
-      throw UsageError("--minus: not --over equal-flows or random-flows; choose flows or windows");
     if (!fit.rule.adds_up()) continue;
     const auto all = data_of(fit, source), all_others = data_of(fit, other);
     const auto data = in_common(all, all_others);

@@ -117,50 +117,11 @@ double gauss(double u)
   return std::exp(-u * u / 2) / std::sqrt(2 * std::numbers::pi);
 }
 
-double lucy(double u)
-{
-  const double rest = std::max(0.0, 1 - std::abs(u));
-  return 1.25 * (4 - 3 * rest) * rest * rest * rest;
-}
-
-double lucy_below(double u)
-{
-  const double rest = std::max(0.0, 1 - std::abs(u));
-  const double tail = rest * rest * rest * rest * (5 - 3 * rest) / 4;
-  return u > 0 ? 1 - tail : tail;
-}
-
-double heaviside(double u)
-{
-  return std::abs(u) < 1 ? 0.5 : 0;
-}
-
-double heaviside_below(double u)
-{
-  return (1 + std::clamp(u, -1.0, 1.0)) / 2;
-}
-
-using Function = double (*)(double);
-
 /// Mean of f from a to b by three Gauss-Legendre points, exact for polynomials up to degree 5.
-double three_point_mean(Function f, double a, double b)
+double three_point_mean(double (*f)(double), double a, double b)
 {
   const double middle = a + (b - a) / 2, offset = std::sqrt(0.6) * (b - a) / 2;
   return (5 * f(middle - offset) + 8 * f(middle) + 5 * f(middle + offset)) / 18;
-}
-
-/// Mean from a to b, a < b, of a piecewise polynomial of degree at most 5 whose pieces meet at -1,
-/// 0 and 1. It subtracts no primitives, so no digits are lost if a and b are close.
-template <Function f>
-double piecewise_mean(double a, double b)
-{
-  double sum = 0;
-  const std::array<double, 5> ends{a, -1, 0, 1, b};
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-    const double low = std::clamp(ends[k], a, b), high = std::clamp(ends[k + 1], a, b);
-    if (low < high) sum += (high - low) / (b - a) * three_point_mean(f, low, high);
-  }
-  return sum;
 }
 
 /// True if a Gaussian changes so little from a to b that three points are more accurate than the
@@ -185,28 +146,9 @@ double gauss_below_mean(double a, double b)
   return (normal_below_primitive(b) - normal_below_primitive(a)) / (b - a);
 }
 
-/// psi, its integral from minus infinity, the means of both over an interval, reach and variance.
-struct Functions {
-  Function value, below;
-  double (*mean)(double a, double b);
-  double (*below_mean)(double a, double b);
-  double reach, variance;
-};
-
-constexpr Functions shapes[] = {
-    {gauss, normal_below, gauss_mean, gauss_below_mean, gauss_reach, 1},
-    {lucy, lucy_below, piecewise_mean<lucy>, piecewise_mean<lucy_below>, 1, 2.0 / 21},
-    {heaviside, heaviside_below, piecewise_mean<heaviside>, piecewise_mean<heaviside_below>, 1,
-     1.0 / 3}};
-
-const Functions& functions_of(KernelShape shape)
-{
-  return shapes[static_cast<std::size_t>(shape)];
-}
-
 }  // namespace
 
-Kernel::Kernel(KernelShape shape, double width) : shape_(shape), width_(width)
+Kernel::Kernel(double width) : width_(width)
 {
   if (!(width > 0) || !std::isfinite(width))
     throw UsageError(
@@ -215,34 +157,29 @@ Kernel::Kernel(KernelShape shape, double width) : shape_(shape), width_(width)
 
 double Kernel::reach() const
 {
-  return functions_of(shape_).reach * width_;
-}
-
-double Kernel::variance() const
-{
-  return functions_of(shape_).variance * width_ * width_;
+  return gauss_reach * width_;
 }
 
 double Kernel::value(double u) const
 {
-  return functions_of(shape_).value(u / width_) / width_;
+  return gauss(u / width_) / width_;
 }
 
 double Kernel::below(double u) const
 {
-  return functions_of(shape_).below(u / width_);
+  return normal_below(u / width_);
 }
 
 double Kernel::along(double y, double from, double to) const
 {
   const double a = (y - std::max(from, to)) / width_, b = (y - std::min(from, to)) / width_;
-  return a < b ? functions_of(shape_).mean(a, b) / width_ : value(y - from);
+  return a < b ? gauss_mean(a, b) / width_ : value(y - from);
 }
 
 double Kernel::below_along(double y, double from, double to) const
 {
   const double a = (y - std::max(from, to)) / width_, b = (y - std::min(from, to)) / width_;
-  return a < b ? functions_of(shape_).below_mean(a, b) : below(y - from);
+  return a < b ? gauss_below_mean(a, b) : below(y - from);
 }
 
 }  // namespace grseg

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "analysis/frames/layers.hpp"
-#include "formats/cli/words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,19 +21,8 @@ namespace grseg {
 double normal_below(double u);
 double normal_below_primitive(double u);
 
-/// Shapes of psi(u) for u = y - y_i in units of the width w, all even and of integral 1:
-///   gauss      exp(-u^2/2) / (sqrt(2 pi) w); w is its standard deviation. It is not cut off, but
-///              its integral beyond 8.5 w is less than round-off.
-///   lucy       5/4 (1 + 3|u|)(1 - |u|)^3 / w for |u| < 1, 0 beyond; w is half its support, its
-///              standard deviation is sqrt(2/21) w = 0.31 w.
-///   heaviside  1/2 / w for |u| < 1, 0 beyond; w is half its support, its standard deviation is
-///              w/sqrt(3) = 0.58 w.
-enum class KernelShape { gauss, lucy, heaviside };
-constexpr Choice<KernelShape> kernel_shapes[] = {{"gauss", KernelShape::gauss},
-                                                 {"lucy", KernelShape::lucy},
-                                                 {"heaviside", KernelShape::heaviside}};
-
-/// The coarse-graining function psi over the height y. The cell is periodic in x, and fields are
+/// The coarse-graining function psi over the height y, a Gaussian: psi(u) = exp(-u^2/(2 w^2))/
+/// (sqrt(2 pi) w). It is not cut off, but its integral beyond 8.5 w is less than round-off. The cell is periodic in x, and fields are
 /// averaged over its length Lx, so that they depend on y alone:
 ///   density of a sum over grains   (1/Lx) sum_i a_i psi(y - y_i)
 ///   contact stress                 (1/Lx) sum_k force_k (x) branch_k A_k(y)
@@ -45,13 +33,10 @@ constexpr Choice<KernelShape> kernel_shapes[] = {{"gauss", KernelShape::gauss},
 /// density of the contact forces, exactly and at every y. Heights in m, psi in 1/m.
 class Kernel {
  public:
-  /// Throws UsageError unless the width (m, see KernelShape) is positive.
-  Kernel(KernelShape shape, double width);
+  /// Throws UsageError unless the width w (m), the standard deviation, is positive.
+  explicit Kernel(double width);
 
-  KernelShape shape() const { return shape_; }
   double width() const { return width_; }
-  /// Mean of u^2 with the weight psi, m^2.
-  double variance() const;
   /// Distance beyond which the integral of psi is less than round-off, m.
   double reach() const;
 
@@ -67,7 +52,6 @@ class Kernel {
   double below_along(double y, double from, double to) const;
 
  private:
-  KernelShape shape_;
   double width_;
 };
 

@@ -93,14 +93,17 @@ template <int D>
 std::vector<double> local_composition(const Grains& grains, const Frame<D>& frame, const Box& box,
                                       Species of, double radius)
 {
-  const Kernel kernel(KernelShape::lucy, radius);
+  const auto lucy = [radius](double distance) {
+    const double rest = std::max(0.0, 1 - distance / radius);
+    return (4 - 3 * rest) * rest * rest * rest;
+  };
   const NearGrains<D> all(grains, frame, box, radius);
   std::vector<double> shares(grains.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t g = 0; g < grains.size(); ++g) {
     if (!is_mobile(grains, frame, g)) continue;
     double part = 0, sum = 0;
     all.visit(frame.position[g], [&](std::size_t near, double distance) {
-      const double weight = grain_volume<D>(grains.radius[near]) * kernel.value(distance);
+      const double weight = grain_volume<D>(grains.radius[near]) * lucy(distance);
       sum += weight;
       if (grains.species[near] == of) part += weight;
     });

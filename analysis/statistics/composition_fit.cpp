@@ -62,13 +62,4 @@ Eigen::MatrixXd CompositionFit::taken(const std::vector<std::size_t>& group,
   return std::sqrt(strength_ * (2 - strength_)) * sums;
 }
 
-double CompositionFit::degrees(const std::vector<std::size_t>& group) const
-{
-  const std::size_t groups = group.empty() ? 0 : *std::ranges::max_element(group) + 1;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(index(groups));
-  for (std::size_t k = 0; k < group.size(); ++k) weights[index(group[k])] += weight_[index(k)];
-  const Eigen::VectorXd squares = taken(group, groups).rowwise().squaredNorm();
-  return 1 + (weights.array() > 0).select(squares.array() / weights.array(), 0).sum();
-}
-
 }  // namespace grseg

@@ -23,10 +23,6 @@ class CompositionFit {
   /// the weighted mean 0 over the points, that part of its weighted sum of squares is |E^T v|^2, E being
   /// the result, with a row per group.
   Eigen::MatrixXd taken(const std::vector<std::size_t>& group, std::size_t groups) const;
-  /// Degrees of freedom that the fit removes from differences between groups: the sum of the squared
-  /// canonical correlations between its terms and the groups. It is 1, for the mean, if all groups have
-  /// the same compositions, and 3 if each group has a single composition of its own.
-  double degrees(const std::vector<std::size_t>& group) const;
 
  private:
   Eigen::VectorXd weight_;

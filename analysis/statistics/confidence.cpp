@@ -63,23 +63,6 @@ StandardError added(const std::vector<StandardError>& parts)
   return {std::sqrt(squares), std::clamp(degrees, least, all)};
 }
 
-StandardError scatter_of_values(const Eigen::VectorXd& values)
-{
-  return deviation_of_runs((values.array() - values.mean()) / static_cast<double>(values.size()),
-                           Eigen::VectorXd::Ones(values.size()))
-      .error();
-}
-
-MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers)
-{
-  const auto count = static_cast<double>(numbers.size());
-  const auto values = numbers_of(numbers, &Measured::value);
-  const auto parts = listed(numbers, [&](const Measured& number) {
-    return StandardError{number.error.error / count, number.error.degrees};
-  });
-  return {values.mean(), added(parts), scatter_of_values(values)};
-}
-
 std::string doubt_of_runs(const Eigen::VectorXd& weight)
 {
   const double runs = effective_number(weight);

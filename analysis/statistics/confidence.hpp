@@ -69,18 +69,6 @@ Deviation deviation_of_runs(const Eigen::VectorXd& influence, const Eigen::Vecto
 /// but at least the smallest degrees of a part and at most their sum. NaN if one part is unknown.
 StandardError added(const std::vector<StandardError>& parts);
 
-/// Error of the unweighted mean of independent values (Student 1908), with n - 1 degrees.
-StandardError scatter_of_values(const Eigen::VectorXd& values);
-
-/// Unweighted mean of independent numbers with two errors. `by_errors` follows from the numbers'
-/// errors (added) and is valid for the mean of just these numbers. `by_scatter` follows from their
-/// differences (scatter_of_values) and is valid for the population from which they were drawn.
-struct MeanOfEquals {
-  double value;
-  StandardError by_errors, by_scatter;
-};
-MeanOfEquals mean_of_equals(const std::vector<Measured>& numbers);
-
 /// Index of a window in a vector of Eigen.
 inline Eigen::Index index(std::size_t window)
 {

@@ -201,20 +201,11 @@ template class PartialContactStress<3>;
 
 namespace {
 
-struct AssignmentWord {
-  Assignment assignment;
-  std::optional<KernelShape> shape;
-};
-
-constexpr Choice<AssignmentWord> assignments[] = {
-    {"contact-point", {Assignment::contact_point, {}}},
-    {"branch", {Assignment::branch, {}}, "in proportion to its length in each layer"},
-    {"grain", {Assignment::grain, {}}, "each grain's part in the layer of its centre"},
-    {kernel_shapes[0].word, {Assignment::kernel, KernelShape::gauss}},
-    {kernel_shapes[1].word, {Assignment::kernel, KernelShape::lucy}},
-    {kernel_shapes[2].word,
-     {Assignment::kernel, KernelShape::heaviside},
-     "spread along the branch by this kernel"},
+constexpr Choice<Assignment> assignments[] = {
+    {"contact-point", Assignment::contact_point},
+    {"branch", Assignment::branch, "in proportion to its length in each layer"},
+    {"grain", Assignment::grain, "each grain's part in the layer of its centre"},
+    {"gauss", Assignment::kernel, "spread along the branch by a Gaussian"},
 };
 
 }  // namespace
@@ -223,10 +214,9 @@ void ContactAssignmentOptions::add_to(po::options_description& options)
 {
   const auto where = "layer to which a contact's stress is added: " + list_of(assignments);
   options.add_options()("assign", word_option(&assign, words_of(assignments)), where.c_str());
-  options.add_options()(
-      "kernel-width", po::value(&width)->default_value(width)->value_name("LENGTH"),
-      "width of the kernel: standard deviation of gauss, half the support of lucy "
-      "and heaviside");
+  options.add_options()("kernel-width",
+                        po::value(&width)->default_value(width)->value_name("LENGTH"),
+                        "standard deviation of gauss");
   options.add_options()(
       "composition", word_option(&composition, words_of(grain_areas)),
       "layers to which a grain's area is added: clipped: its part in each layer (default); centre: "
@@ -237,15 +227,15 @@ void ContactAssignmentOptions::add_to(po::options_description& options)
 ContactAssignment ContactAssignmentOptions::contact_assignment(const po::variables_map& values,
                                                                const std::string& otherwise)
 {
-  const auto [assignment, shape] = choose(assign, "--assign", assignments);
-  ContactAssignment chosen{assignment, shape, {}};
-  if (composition.empty()) composition = chosen.shape ? "kernel" : otherwise;
+  ContactAssignment chosen{choose(assign, "--assign", assignments), {}};
+  const bool by_kernel = chosen.assignment == Assignment::kernel;
+  if (composition.empty()) composition = by_kernel ? "kernel" : otherwise;
   chosen.area = choose(composition, "--composition", grain_areas);
   for (const auto& [given, option] :
        {std::pair{chosen.area == GrainArea::kernel, "--composition kernel"},
         {!values["kernel-width"].defaulted(), "--kernel-width"}})
-    if (given && !chosen.shape)
-      throw UsageError(fmt::format("{} needs a kernel: --assign gauss, lucy or heaviside", option));
+    if (given && !by_kernel)
+      throw UsageError(fmt::format("{} needs a kernel: --assign gauss", option));
   return chosen;
 }
 
@@ -269,8 +259,8 @@ void ContactAssignmentOptions::require_bins(const ContactAssignment& chosen,
 std::optional<Kernel> ContactAssignmentOptions::kernel(const ContactAssignment& chosen,
                                                        const LengthUnits& units) const
 {
-  if (!chosen.shape) return {};
-  return Kernel(*chosen.shape, parse_length(width, "--kernel-width", units));
+  if (chosen.assignment != Assignment::kernel) return {};
+  return Kernel(parse_length(width, "--kernel-width", units));
 }
 
 }  // namespace grseg

@@ -132,7 +132,6 @@ class PartialContactStress {
 /// How the stress of contacts and the area of grains are divided among layers.
 struct ContactAssignment {
   Assignment assignment;
-  std::optional<KernelShape> shape;  // for Assignment::kernel
   GrainArea area;
 };
 

@@ -20,7 +20,6 @@ constexpr ToolInfo info{
     "grseg-balance run.h5 [options] > balance.tsv",
     "  grseg-balance run.h5 -o balance.tsv              layers of 4 dS, Gaussian of 1 dS\n"
     "  grseg-balance run.h5 --layer 1dS --kernel-width 0.5dS   finer profiles\n"
-    "  grseg-balance run.h5 --kernel lucy --kernel-width 3dS   a kernel of compact support\n"
     "  grseg-balance run.h5 --begin 20 -o /dev/null     only the summary, one sentence\n"
     "  grseg-balance run.h5 --partition stock           also push, interaction and drag by rule,\n"
     "                                                   and N, which no rule changes\n",
@@ -28,20 +27,17 @@ constexpr ToolInfo info{
 
 struct Settings {
   FrameOptions frames;
-  std::string kernel = "gauss", width = "1dS";
+  std::string width = "1dS";
   std::vector<std::string> partition;
 };
 
 po::options_description options_into(Settings& s)
 {
   po::options_description options("Options");
-  options.add_options()("kernel", word_option(&s.kernel, words_of(kernel_shapes)),
-                        "kernel by which quantities are spread over height (coarse graining): "
-                        "gauss, lucy or heaviside");
   options.add_options()("kernel-width",
                         po::value(&s.width)->default_value(s.width)->value_name("LENGTH"),
-                        "width of the kernel: standard deviation of gauss, half the support of "
-                        "lucy and heaviside");
+                        "standard deviation of the Gaussian by which quantities are spread over "
+                        "height (coarse graining)");
   const auto partition =
       "add columns for these partition rules, which divide the stress of mixed contacts: " +
       list_of_rules() + ", separated by commas; or stock, the rules of published programs";
@@ -51,20 +47,20 @@ po::options_description options_into(Settings& s)
   return options;
 }
 
-Header settings_of(const Settings& s, const Kernel& kernel, const std::vector<PartitionRule>& rules)
+Header settings_of(const Kernel& kernel, const std::vector<PartitionRule>& rules)
 {
-  Header settings{{"kernel", s.kernel}, {"width", format_number(kernel.width())}};
+  Header settings{{"kernel", "gauss"}, {"width", format_number(kernel.width())}};
   if (!rules.empty()) settings.emplace_back("partition", names_of(rules));
   return settings;
 }
 
 template <int D>
-void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::string& command)
+void tabulate(FrameLoop& loop, const Settings& s, const std::string& command)
 {
   const auto& run = loop.run();
   const auto& species = loop.species();
   const LengthUnits units{run.small_diameter(), run.large_diameter()};
-  const Kernel kernel(shape, parse_length(s.width, "--kernel-width", units));
+  const Kernel kernel(parse_length(s.width, "--kernel-width", units));
   const auto rules = without_repeats(parse_rules(s.partition));
   BalanceSummary<D> summary(loop.layers(), run.large_diameter(), rules);
   const MomentumBalance<D> no_grains(loop.layers(), kernel, run.gravity<D>(), run.step(),
@@ -77,7 +73,7 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
     if (!rules.empty()) add_all(cells, partition_cells(balance, contacts, species, layer));
     return cells;
   };
-  TableWriter table(loop, command, settings_of(s, kernel, rules),
+  TableWriter table(loop, command, settings_of(kernel, rules),
                     columns_of(cells_of(no_grains, no_contacts, std::nullopt)));
   for (const auto& window : loop.windows()) {
     const auto [balance, contacts] = loop.sum<D>(
@@ -97,12 +93,11 @@ void tabulate(FrameLoop& loop, const Settings& s, KernelShape shape, const std::
 
 void tabulate(Settings& s, const po::variables_map& values, const std::string& command)
 {
-  const auto shape = choose(s.kernel, "--kernel", kernel_shapes);
   parse_rules(s.partition);
   FrameLoop loop(info, values, s.frames);
   loop.require_forces("the rate at which momentum changes",
                       "use a run of grseg-sim, or import one with the forces on its grains");
-  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, shape, command); });
+  with_dimension(loop.dimension(), [&](auto d) { tabulate<d>(loop, s, command); });
 }
 
 }  // namespace

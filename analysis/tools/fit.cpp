@@ -28,7 +28,7 @@ constexpr ToolInfo info{
     "  grseg-fit sums.tsv --short -o fit.tsv            a short table, and all numbers in a file\n"
     "  grseg-fit a.tsv b.tsv --partition size,half      several runs, several rules\n"
     "  grseg-fit phi*/*.tsv                             B of each flow, then of all\n"
-    "  grseg-fit phi*/*.tsv --over equal-flows          one B, with equal weight for each flow\n"
+    "  grseg-fit phi*/*.tsv --over windows             one B of all, over the windows of these runs\n"
     "  grseg-fit sums.tsv --scan 0.4:0.9:0.005          B as function of the large grain's share\n"
     "  grseg-fit sums.tsv --series -o series.tsv        B and the motion of the bed over time\n"
     "  grseg-fit thick.tsv --minus thin.tsv             how much the thickness of layers moves B\n"

@@ -34,10 +34,10 @@ std::vector<std::string> words_of(const Choice<Value> (&choices)[N])
 /// Number and noun: "1 table", "2 tables".
 std::string counted(std::size_t number, const char* thing);
 
-/// Words joined by commas and "or": "gauss, lucy or heaviside".
+/// Words joined by commas and "or": "size, half or drop".
 std::string list_of_words(const std::vector<std::string>& words);
 
-/// Message "unknown --kernel 'gaus'; choose gauss, lucy or heaviside". `what` names the option or
+/// Message "unknown --rule 'hal'; choose size, half or drop". `what` names the option or
 /// key. If there are five or more known words, the message suggests the nearest one first.
 std::string unknown_word(const std::string& what, const std::string& word,
                          const std::vector<std::string>& known);

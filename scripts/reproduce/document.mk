@@ -58,7 +58,7 @@ $(names:%=figures/%.png) $(names:%=figures/%.pdf): figures/%: $(work)/%
 
 inside := --heights 4dS:56dS --quiet
 # One B for all mixtures, as Staron & Phillips published it (docs/studies/uncertainty.md).
-fit = $(bin)/grseg-fit --over compositions $(inside) --overwrite -o $@
+fit = $(bin)/grseg-fit --over flows $(inside) --overwrite -o $@
 micro = $(bin)/grseg-derive --overwrite -o $@
 code = $(1:%=campaign/%.py) campaign/tables.py ../shared.py
 every := $(foreach run,$(runs),$(wildcard $(run)/*.tsv))

@@ -25,7 +25,7 @@ inline Tensor2 dyad(const Vec2& f, const Vec2& b)
 
 inline constexpr Assignment all_assignments[] = {Assignment::contact_point, Assignment::branch,
                                                  Assignment::grain, Assignment::kernel};
-inline const Kernel smooth(KernelShape::gauss, 0.3);
+inline const Kernel smooth(0.3);
 
 inline PartialContactStress<2> stress_of(const Packing& packing, Assignment assignment,
                                          std::optional<double> power = std::nullopt,

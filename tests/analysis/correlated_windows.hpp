@@ -184,7 +184,7 @@ class RunsOfFlows {
   struct Draw {
     FitData data;
     struct Truth {
-      double of_runs = 0, of_flows = 0, of_equal = 0, of_all = 0;
+      double of_runs = 0, of_flows = 0;
       std::vector<double> of_each;  // B of each flow
     } truth;
   };
@@ -305,7 +305,6 @@ class RunsOfFlows {
   {
     Draw::Truth truth;
     Ratio of_runs, of_flows;
-    const double between = std::pow(design_.flow_scatter * error_of_flow(), 2);
     for (std::size_t m = 0; m < design_.flows; ++m) {
       const double of_run = design_.run_variance * run_variance(m);
       for (std::size_t run = 0; run < design_.runs; ++run)
@@ -313,8 +312,6 @@ class RunsOfFlows {
       const auto flow = sums_of(m, offset_[m], of_run);
       of_flows += flow;
       truth.of_each.push_back(flow.value());
-      truth.of_equal += flow.value() / static_cast<double>(design_.flows);
-      truth.of_all += sums_of(m, 0, of_run + between).value() / static_cast<double>(design_.flows);
     }
     truth.of_runs = of_runs.value();
     truth.of_flows = of_flows.value();

@@ -219,10 +219,6 @@ double truth_of(Population over, const RunsOfFlows::Draw::Truth& truth)
       return truth.of_runs;
     case Population::runs:
       return truth.of_each[0];
-    case Population::equal_flows:
-      return truth.of_equal;
-    case Population::random_flows:
-      return truth.of_all;
     default:
       return truth.of_flows;
   }
@@ -230,8 +226,7 @@ double truth_of(Population over, const RunsOfFlows::Draw::Truth& truth)
 
 bool is_defined(Population over, std::size_t flows)
 {
-  return flows > 1 || over == Population::windows || over == Population::runs ||
-         over == Population::compositions;
+  return flows > 1 || over == Population::windows || over == Population::runs;
 }
 
 void print_flows(const FlowDesign& design)

@@ -20,13 +20,13 @@ TYPED = {
     "--colu": "--columns",
     "sums-o": "sums-of-a-run.tsv",
     "-o sums-o": "sums-of-a-run.tsv",
-    "--over eq": "--over equal-flows",
+    "--over fl": "--over flows",
     "--partition size,contact-": "--partition size,contact-point",
     "--partition unif": "--partition uniform:",
 }
 # One option for each list of words, and one word of the list.
 WORDS = {
-    "grseg-balance": {"kernel": "lucy", "partition": "stock", "preset": "rigorous"},
+    "grseg-balance": {"partition": "stock", "preset": "rigorous"},
     "grseg-closure": {"instruments": "previous"},
     "grseg-derive": {"force": "normal", "average": "ends", "pool": "windows", "partition": "uniform:"},
     "grseg-explore": {"partition": "contact-point", "rules": "stock", "component": "yy", "base-part": "half"},

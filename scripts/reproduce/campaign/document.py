@@ -106,7 +106,7 @@ def pooled(m):
         return "Not measured yet."
     total = sum(flow["weight"] for flow in flows)
     shares = ", ".join(f"{100 * flow['weight'] / total:.0f}" for flow in flows)
-    over = (("`compositions`", ""), ("`flows`", "_flows"), ("`equal-flows`", "_equal_flows"), ("`random-flows`", "_random_flows"))
+    over = ("`flows`", ""), ("`windows`", "_windows")
     rows = [[title, m.fit("mixtures", "B" + end).text(3)] for title, end in over]
     return markdown(["over", f"B of these {row['seeds']:.0f} runs"], rows) + f"\n\nWeights of the mixtures: {shares} %."
 

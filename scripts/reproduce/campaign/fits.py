@@ -45,7 +45,7 @@ def fit(options, case, runs, rules):
     words = ["--quantity", case["quantity"], "--component", case["component"], "--quiet",
              *STAGES[case["stage"]], *HEIGHTS[case["heights"]], *tables.sizes_of(runs)]
     if len(tables.by_flow(runs)) > 1:
-        words += ["--over", "compositions"]
+        words += ["--over", "flows"]
     if rules:
         words += ["--partition", rules]
     label = f"fits: {case['set']}, {case['stage']}, {case['heights']}"
@@ -64,8 +64,7 @@ def fits(options):
         heights   inside (4dS:56dS: without the lowest layer and the surface) or all
         quantity component
     Then follows a column for each number of grseg-fit, with NAME_low and NAME_high. Intervals of a flow are over its runs.
-    Intervals of `mixtures` and `slopes` are over compositions; columns B_flows ... have B over flows, equal flows and random
-    flows (docs/studies/uncertainty.md). All rules are fitted for all times inside; other stages and all heights only by
+    Those of `mixtures` and `slopes` are over flows (docs/studies/uncertainty.md). All rules are fitted for all times inside; other stages and all heights only by
     size. A set without any usable point has no row.
     """
     sets = sets_of(tables.runs_in(options.tables))

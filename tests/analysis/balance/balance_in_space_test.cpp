@@ -20,7 +20,7 @@ using Spheres = PackingOf<3>;
 constexpr double time_step = 1e-3;
 const Vec3 oblique(3, -9, 2);
 const Layers slabs(1, 10, 7);
-const Kernel smooth(KernelShape::gauss, 0.2);
+const Kernel smooth(0.2);
 
 Species numbered(int k)
 {
@@ -91,21 +91,19 @@ double worst_residual(const MomentumBalance<3>& balance, Species species)
 
 TEST(BalanceInSpace, ClosesForEachSpeciesUnderAnyForces)
 {
-  for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside})
-    for (const int species : {1, 2, 3, 5}) {
-      const auto balance =
-          balance_of_spheres({random_spheres(1, species)}, static_cast<std::size_t>(species),
-                             oblique, Kernel(shape, 0.3));
-      for (int k = 0; k < species; ++k)
-        EXPECT_LT(worst_residual(balance, numbered(k)), 1e-10) << species << ' ' << k;
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        const auto of = balance.mean(1, Species::small);
-        EXPECT_GT(std::abs(of.contact[axis]), 1e-4);
-        EXPECT_GT(std::abs(of.kinetic[axis]), 1e-7);
-        EXPECT_EQ(std::abs(of.interaction[axis]) > 1e-4, species > 1);
-        EXPECT_GT(std::abs(balance.mean(0, Species::small).base[axis]), 1e-4);
-      }
+  for (const int species : {1, 2, 3, 5}) {
+    const auto balance = balance_of_spheres(
+        {random_spheres(1, species)}, static_cast<std::size_t>(species), oblique, Kernel(0.3));
+    for (int k = 0; k < species; ++k)
+      EXPECT_LT(worst_residual(balance, numbered(k)), 1e-10) << species << ' ' << k;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto of = balance.mean(1, Species::small);
+      EXPECT_GT(std::abs(of.contact[axis]), 1e-4);
+      EXPECT_GT(std::abs(of.kinetic[axis]), 1e-7);
+      EXPECT_EQ(std::abs(of.interaction[axis]) > 1e-4, species > 1);
+      EXPECT_GT(std::abs(balance.mean(0, Species::small).base[axis]), 1e-4);
     }
+  }
 }
 
 // Forces and weights with the axes y and z exchanged do not fit the motions.
@@ -198,8 +196,7 @@ TEST(BalanceInSpace, AColumnOfThreeSpeciesCarriesItsWeight)
   for (int n = 0; n < count; ++n) scene.grain(numbered(n % 3), 0.5, {5, n + 0.5, 2});
   for (int n = 0; n < count; ++n) scene.contact(n + 1, n, {0, weight * (count - n), 0});
   const Vec3 down(0, -9, 0);
-  const auto balance =
-      balance_of_spheres({accelerated(scene, down)}, 3, down, Kernel(KernelShape::lucy, 0.3));
+  const auto balance = balance_of_spheres({accelerated(scene, down)}, 3, down, Kernel(0.05));
   for (std::size_t n = 0; n < count; ++n) {
     SpeciesMomentum<3> all;
     for (int k = 0; k < 3; ++k) all += balance.mean(n, numbered(k));

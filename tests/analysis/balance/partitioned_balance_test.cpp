@@ -35,25 +35,22 @@ double above_edge(double edge, double y)
 template <int D>
 void expect_n_of_stored_forces(int species)
 {
-  for (const auto shape : {KernelShape::gauss, KernelShape::lucy, KernelShape::heaviside}) {
-    const Kernel kernel(shape, 0.3);
-    const auto count = static_cast<std::size_t>(species);
-    const std::vector frames{random_contacts<D>(1, species), random_contacts<D>(2, species)};
-    const auto balance = momentum_of<D>(frames, count, kernel);
-    const auto contacts = contacts_of<D>(frames, all_rules, count, kernel);
-    ASSERT_EQ(contacts.layers(), balance.layers());
-    for (std::size_t n = 0; n < contacts.layers(); ++n)
-      for (int k = 0; k < species; ++k) {
-        const auto of = balance.mean(n, static_cast<Species>(k));
-        const Vector<D> expected = of.force - of.gravity;
-        for (std::size_t rule = 0; rule < all_rules.size(); ++rule)
-          EXPECT_LT((contacts.mean(n, static_cast<Species>(k), rule).sum() - expected).norm(),
-                    1e-13)
-              << all_rules[rule].name() << ' ' << k;
-        EXPECT_LT((contacts.contact_force(n, static_cast<Species>(k)) - expected).norm(), 1e-13);
-        EXPECT_GT(contacts.mean(n, static_cast<Species>(k), 0).sum().norm(), 1e-5);
-      }
-  }
+  const Kernel kernel(0.3);
+  const auto count = static_cast<std::size_t>(species);
+  const std::vector frames{random_contacts<D>(1, species), random_contacts<D>(2, species)};
+  const auto balance = momentum_of<D>(frames, count, kernel);
+  const auto contacts = contacts_of<D>(frames, all_rules, count, kernel);
+  ASSERT_EQ(contacts.layers(), balance.layers());
+  for (std::size_t n = 0; n < contacts.layers(); ++n)
+    for (int k = 0; k < species; ++k) {
+      const auto of = balance.mean(n, static_cast<Species>(k));
+      const Vector<D> expected = of.force - of.gravity;
+      for (std::size_t rule = 0; rule < all_rules.size(); ++rule)
+        EXPECT_LT((contacts.mean(n, static_cast<Species>(k), rule).sum() - expected).norm(), 1e-13)
+            << all_rules[rule].name() << ' ' << k;
+      EXPECT_LT((contacts.contact_force(n, static_cast<Species>(k)) - expected).norm(), 1e-13);
+      EXPECT_GT(contacts.mean(n, static_cast<Species>(k), 0).sum().norm(), 1e-5);
+    }
 }
 
 // N = -div sigma + beta + base equals the stored forces on the grains minus their weight.

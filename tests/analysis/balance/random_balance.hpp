@@ -11,7 +11,7 @@
 namespace grseg {
 
 inline constexpr double gauge_step = 1e-3, kernel_width = 0.2;
-inline const Kernel bell(KernelShape::gauss, kernel_width);
+inline const Kernel bell(kernel_width);
 inline const std::vector<PartitionRule> all_rules = parse_rules(
     {"size", "contact-point", "half", "drop", "uniform:0", "uniform:0.3", "uniform:1", "power:2"});
 

@@ -113,12 +113,11 @@ TEST(ShortTable, SaysOverWhatItsIntervalsAreAndNothingOfOthers)
   of_runs.flows = {{"Phi_L = 0.30", {0.7, 0.3}, {0, 1}}};
   of_runs.shares = {1};
   for (auto& fit : of_runs.rules) fit.over = Population::runs;
-  for (const auto over : {Population::windows, Population::runs, Population::compositions})
+  for (const auto over : {Population::windows, Population::runs})
     of_runs.rules[0].at(over) = {0.03, 0.02, 0.04};
   const auto text = short_table(of_runs);
   EXPECT_NE(text.find("\nintervals over runs: B of one flow"), std::string::npos) << text;
-  for (const char* other : {"over windows", "over compositions"})
-    EXPECT_EQ(text.find(other), std::string::npos) << text;
+  EXPECT_EQ(text.find("over windows"), std::string::npos) << text;
 }
 
 /// A report whose p* has this interval.

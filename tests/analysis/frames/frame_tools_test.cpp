@@ -159,7 +159,7 @@ TEST_F(FrameTools, AssignmentsGiveTheSameTotals)
 {
   const auto a = table(stress, "--layer 6mm"), b = table(stress, "--layer 6mm --assign branch"),
              c = table(stress, "--layer 6mm --assign grain"),
-             d = table(stress, "--layer 6mm --assign lucy --kernel-width 2dL");
+             d = table(stress, "--layer 6mm --assign gauss --kernel-width 1dL");
   for (const char* column : {"M_yy", "Msize_yy", "Mcp_xy", "A_Lb_yy", "F_Lb_yy", "area_L"}) {
     const auto total = [&](const Table& t) {
       return cell(t, 0, column) + cell(t, 1, column) + cell(t, 2, column);
@@ -183,7 +183,7 @@ TEST_F(FrameTools, CoarseGrainingSpreadsContactsAndGrainsByTheSameKernel)
   EXPECT_EQ(t.header_text("assign"), "gauss");
   EXPECT_EQ(t.header_number("width"), 0.0025);
   EXPECT_EQ(t.header_text("composition"), "kernel");
-  EXPECT_EQ(table(stress, "--assign lucy --composition clipped").header_text("composition"),
+  EXPECT_EQ(table(stress, "--assign gauss --composition clipped").header_text("composition"),
             "clipped");
 }
 
@@ -195,8 +195,7 @@ TEST_F(FrameTools, ARunInTwoPartsMergesIntoTheWhole)
               0);
     return " " + path;
   };
-  for (const std::string rule :
-       {"contact-point", "branch", "gauss", "lucy", "heaviside", "grain"}) {
+  for (const std::string rule : {"contact-point", "branch", "gauss", "grain"}) {
     const auto assign = " --assign " + rule;
     const auto a = part("a.tsv", "--window 0.5 --end 1" + assign),
                b = part("b.tsv", "--window 0.5 --begin 1" + assign);

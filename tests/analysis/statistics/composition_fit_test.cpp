@@ -88,30 +88,5 @@ TEST(CompositionFit, TakesFromANumberByWindowWhatItDoesNotLeave)
   EXPECT_GT(left / all, 0.01);
 }
 
-/// Four groups of ten points: point k of group g is at `of(g, k)`.
-template <class Of>
-double degrees_of_four_groups(const Of& of)
-{
-  Eigen::VectorXd phi(40);
-  std::vector<std::size_t> group;
-  for (Eigen::Index k = 0; k < 40; ++k) {
-    phi[k] = of(static_cast<double>(k / 10), static_cast<double>(k % 10));
-    group.push_back(static_cast<std::size_t>(k / 10));
-  }
-  return CompositionFit(phi, Eigen::VectorXd::Ones(40)).degrees(group);
-}
-
-// If groups have different compositions, the fit explains what line, curve and mean can: 3 of 4
-// degrees. If groups are alike it only removes their mean.
-TEST(CompositionFit, TakesThreeDegreesOfGroupsThatAreApartAndOneOfGroupsThatAreAlike)
-{
-  EXPECT_NEAR(degrees_of_four_groups([](double g, double) { return 0.2 + 0.15 * g; }), 3, 1e-9);
-  EXPECT_NEAR(degrees_of_four_groups([](double, double k) { return 0.05 + 0.1 * k; }), 1, 1e-9);
-  const double between =
-      degrees_of_four_groups([](double g, double k) { return 0.1 + 0.1 * g + 0.05 * k; });
-  EXPECT_GT(between, 1.1);
-  EXPECT_LT(between, 2.9);
-}
-
 }  // namespace
 }  // namespace grseg

@@ -15,15 +15,6 @@ Eigen::VectorXd list(std::initializer_list<double> values)
   return all;
 }
 
-// The standard error of the mean of 1, 2, 3, 4 is sqrt(5/3/4), with 3 degrees of freedom.
-TEST(RunScatter, OfValuesIsTheStandardErrorOfTheirMean)
-{
-  const auto error = scatter_of_values(list({1, 2, 3, 4}));
-  EXPECT_NEAR(error.error, std::sqrt(5.0 / 12), 1e-15);
-  EXPECT_NEAR(error.degrees, 3, 1e-14);
-  EXPECT_TRUE(std::isnan(scatter_of_values(list({1})).error));
-}
-
 // A deviation that all runs of a mixture share, because the mixture differs from others, is not
 // scatter of runs.
 TEST(RunScatter, IsAboutWhatARunLikeItsMixtureWouldAdd)

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Assignment assignments[] = {Assignment::contact_point, Assignment::branch,
                                       Assignment::kernel, Assignment::grain};
-const Kernel smooth(KernelShape::gauss, 3);
+const Kernel smooth(3);
 
 template <class Dimension>
 class ManySpecies : public testing::Test {
