@@ -90,7 +90,7 @@ def in_the_browser(copy):
     """Name of the failing check of the page's test, or its last line of output; [] if the test passes."""
     copy.must_build(TARGETS)
     done = run_quietly(["/usr/bin/python3", "-B", f"{copy.tree}/tests/tools/explore_page_test.py", copy.bin,
-                        f"{copy.tree}/data/sample/chute.h5"])
+                        f"{copy.tree}/data/sample/chute.h5", "all"])
     if done.returncode == 77:
         raise SystemExit(done.stdout)
     checks = re.findall(r"in (check_\w+)", done.stdout)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The page of grseg-explore in a browser: it opens from disk without an error message, shows B as
 grseg-fit prints it, plays, reacts to slider, keys and clicks, and fits the screen of a phone.
-Usage: explore_page_test.py BIN RUN.h5 [FOLDER-FOR-PICTURES]
+Usage: explore_page_test.py BIN RUN.h5 short|all [FOLDER-FOR-PICTURES]
 Exit code 77, test skipped, if Chromium or selenium is missing.
 """
 import json
@@ -30,7 +30,8 @@ if webdriver is None or DRIVER is None or not (shutil.which("chromium") or shuti
     sys.exit(77)
 
 BIN, RUN = map(os.path.abspath, sys.argv[1:3])
-PICTURES = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
+ALL = sys.argv[3] == "all"
+PICTURES = os.path.abspath(sys.argv[4]) if len(sys.argv) > 4 else None
 FOLDER = tempfile.TemporaryDirectory()  # removed at the end of the script
 os.chdir(FOLDER.name)
 DESK, PHONE = (1280, 900), (390, 844)
@@ -959,6 +960,12 @@ def check_several():
     assert not os.path.exists("no.html")
 
 
+def timed(check, *words):
+    begin = time.monotonic()
+    check(*words)
+    print(f"{time.monotonic() - begin:5.1f} s {check.__name__}")
+
+
 def main():
     tool("stress", RUN, "--quiet", "-o", "sums.tsv")
     tool("explore", RUN, "--quiet", "-o", "page.html", "--overwrite")
@@ -972,24 +979,11 @@ def main():
     with Page("page.html") as page:
         check_b(page)
         page.driver.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})  # whole page: no error message
-        check_band(page)
-        check_interval_between(page)
-        check_readout(page)
-        check_names(page)
-        check_neutral(page)
-        check_contacts(page, RUN, (0, 60))
-        check_cuts(page)
-        check_base_cuts(page)
-        check_plots(page)
-        check_controls(page)
-        check_numbers(page)
-        check_theme(page)
-        check_captions(page)
-        check_contrast(page)
-        check_grain(page)
-        check_widths(page)
-        check_report(page)
-        check_speed(page)
+        timed(check_contacts, page, RUN, (0, 60))
+        for check in (check_band, check_interval_between, check_readout, check_names, check_neutral, check_cuts, check_base_cuts,
+                      check_plots, check_controls, check_numbers, check_theme, check_captions, check_contrast, check_grain,
+                      check_widths, check_report, check_speed):
+            timed(check, page)
     with Page("page.html", PHONE) as page:
         page.shoot("explore-390-first")
         page.run("window.scrollTo(0, document.body.scrollHeight)")
@@ -1000,15 +994,10 @@ def main():
         page.run("document.getElementById('theme').click()")
         page.settle()
         assert page.run("return getComputedStyle(document.body).backgroundColor") == "rgb(20, 23, 26)"
-    check_address()
-    check_hostile()
-    check_species()
-    check_edges()
-    check_several()
-    check_spheres()
-    check_walls_and_one_species()
-    check_two_mixtures()
-    check_sizes()
+    of_other_runs = (check_address, check_species, check_edges, check_spheres, check_walls_and_one_species,
+                     check_two_mixtures, check_sizes)
+    for check in (check_hostile, check_several, *(of_other_runs if ALL else ())):
+        timed(check)
 
 
 if __name__ == "__main__":

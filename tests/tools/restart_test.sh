@@ -20,7 +20,7 @@ refused() {
 }
 
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 10 -o whole.h5
+$bin/grseg-sim --quiet $chute --duration 5 -o whole.h5
 content whole.h5 >whole
 
 # stopped SIGNAL CHECKPOINT SECONDS OPTIONS...: a run that gets SIGNAL some time after its first
@@ -40,7 +40,7 @@ stopped() {
 for pair in INT:130 TERM:143 HUP:129 USR1:138 USR2:140 XCPU:152; do
   signal=${pair%:*}
   # shellcheck disable=SC2086
-  stopped $signal run$signal.chk 0.1 $chute --duration 10 -o $signal.h5
+  stopped $signal run$signal.chk 0.1 $chute --duration 5 -o $signal.h5
   [ $code = "${pair#*:}" ] || fail "exit code $code after SIG$signal"
   grep -q "the frames so far are in $signal.h5.part, --restart run$signal.chk continues$" words || fail "$(cat words)"
   $bin/grseg-sim --restart run$signal.chk --quiet -o $signal.h5
@@ -50,33 +50,33 @@ mv runTERM.chk run.chk
 
 # One command begins a run, continues it after a kill, and leaves it alone when it is finished.
 # shellcheck disable=SC2086
-stopped KILL on.chk 0.05 $chute --duration 10 --continue -o on.h5
+stopped KILL on.chk 0.05 $chute --duration 5 --continue -o on.h5
 # shellcheck disable=SC2086
 refused 2 "on.chk and on.h5.part belong to an interrupted run: --continue continues it, --overwrite begins again" \
-  $chute --duration 10 --checkpoint on.chk -o on.h5
+  $chute --duration 5 --checkpoint on.chk -o on.h5
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 10 --checkpoint on.chk --continue -o on.h5
+$bin/grseg-sim --quiet $chute --duration 5 --checkpoint on.chk --continue -o on.h5
 content on.h5 | cmp - whole || fail "--continue changed the run"
 before=$(cksum on.h5)
 # shellcheck disable=SC2086
-$bin/grseg-sim $chute --duration 10 --checkpoint on.chk --continue -o on.h5 2>words
+$bin/grseg-sim $chute --duration 5 --checkpoint on.chk --continue -o on.h5 2>words
 grep -q '^grseg-sim: on.h5 is finished$' words && [ "$(cksum on.h5)" = "$before" ] || fail "a finished run: $(cat words)"
 # A finished run of another scene is not replaced, whether the duration changes as well or not.
 other="on.chk is of a run in which KEY: give this value to continue it, or choose other names for --output and --checkpoint to begin another run"
 # shellcheck disable=SC2086
-refused 2 "$(echo "$other" | sed 's/KEY/seed is 1/')" $chute --duration 10 --seed 2 --checkpoint on.chk --continue -o on.h5
+refused 2 "$(echo "$other" | sed 's/KEY/seed is 1/')" $chute --duration 5 --seed 2 --checkpoint on.chk --continue -o on.h5
 # shellcheck disable=SC2086
 refused 2 "$(echo "$other" | sed 's/KEY/slope is 23/'); --restart on.chk with another --output, instead of --continue, continues with the change" \
-  $chute --duration 12 --slope 20 --checkpoint on.chk --continue -o on.h5
+  $chute --duration 7 --slope 20 --checkpoint on.chk --continue -o on.h5
 [ "$(cksum on.h5)" = "$before" ] || fail "another scene changed a finished run"
 mv on.chk away.chk
 rm on_prev.chk
 # shellcheck disable=SC2086
 refused 2 "on.h5 exists, but not its checkpoint on.chk, from which it could be continued: name it with --checkpoint, or choose another name for --output" \
-  $chute --duration 10 --checkpoint on.chk --continue -o on.h5
+  $chute --duration 5 --checkpoint on.chk --continue -o on.h5
 # shellcheck disable=SC2086
 refused 2 "--estimate covers a whole run; leave out --restart and --continue" \
-  $chute --duration 10 --checkpoint on.chk --continue --estimate -o on.h5
+  $chute --duration 5 --checkpoint on.chk --continue --estimate -o on.h5
 # shellcheck disable=SC2086
 refused 2 "--continue needs --checkpoint FILE, and cannot be combined with --restart" $chute --continue -o other.h5
 
@@ -105,43 +105,43 @@ case $(echo early*) in "early.chk early.h5" | "early.chk early.h5 early_prev.chk
 
 # With another duration an interrupted run goes on, and says from where.
 # shellcheck disable=SC2086
-stopped KILL other.chk 0.05 $chute --duration 20 --checkpoint-every 0 --continue -o other.h5
+stopped KILL other.chk 0.05 $chute --duration 10 --checkpoint-every 0 --continue -o other.h5
 # shellcheck disable=SC2086
-$bin/grseg-sim $chute --duration 10 --checkpoint other.chk --continue -o other.h5 2>words
+$bin/grseg-sim $chute --duration 5 --checkpoint other.chk --continue -o other.h5 2>words
 grep -q '^grseg-sim: continues other.chk from t = [0-9.]* s$' words || fail "$(cat words)"
 content other.h5 | cmp - whole || fail "another duration changed the run"
 
 # Prolonged, it is the run that was longer from the beginning; killed on the way, nothing of it is lost.
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 4 --checkpoint long.chk --continue -o long.h5
+$bin/grseg-sim --quiet $chute --duration 2 --checkpoint long.chk --continue -o long.h5
 cp long.h5 short.h5
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 10 --checkpoint long.chk --checkpoint-every 0.05 --continue -o long.h5 &
+$bin/grseg-sim --quiet $chute --duration 5 --checkpoint long.chk --checkpoint-every 0.05 --continue -o long.h5 &
 while [ ! -s long.h5.part ]; do sleep 0.01; done
 sleep 0.15
 kill -9 $! || true
 wait $! || true
 cmp long.h5 short.h5 || fail "a prolongation that was killed changed the run"
 # shellcheck disable=SC2086
-$bin/grseg-sim --quiet $chute --duration 10 --checkpoint long.chk --continue -o long.h5
+$bin/grseg-sim --quiet $chute --duration 5 --checkpoint long.chk --continue -o long.h5
 content long.h5 | cmp - whole || fail "a run that is prolonged is another"
-[ "$(h5dump -d /parameters/scene long.h5 | grep -c 'duration = 10$')" = 1 ] || fail "a run that is prolonged states its old length"
+[ "$(h5dump -d /parameters/scene long.h5 | grep -c 'duration = 5$')" = 1 ] || fail "a run that is prolonged states its old length"
 # Another run of the same bed is not replaced by it.
 # shellcheck disable=SC2086
 $bin/grseg-sim --quiet $chute --slope 20 --duration 2 -o steep.h5
 # shellcheck disable=SC2086
 refused 2 "steep.h5 already exists; choose another name, remove it, or pass --overwrite" \
-  $chute --duration 12 --checkpoint long.chk --continue -o steep.h5
+  $chute --duration 7 --checkpoint long.chk --continue -o steep.h5
 
 # nohup keeps SIGHUP from the run.
 ( trap '' HUP
   # shellcheck disable=SC2086
-  stopped HUP nohup.chk 0.05 $chute --duration 10 -o nohup.h5
+  stopped HUP nohup.chk 0.05 $chute --duration 5 -o nohup.h5
   [ $code = 0 ] ) || fail "a run that ignores SIGHUP ended by it"
 content nohup.h5 | cmp - whole || fail "SIGHUP changed a run that ignores it"
 
 # A terminal that is closed sends SIGHUP, and takes no more words.
-/usr/bin/python3 - "$bin/grseg-sim" --checkpoint gone.chk $chute --duration 10 -o gone.h5 <<'CLOSED' ||
+/usr/bin/python3 - "$bin/grseg-sim" --checkpoint gone.chk $chute --duration 5 -o gone.h5 <<'CLOSED' ||
 import os, pty, sys, time
 child, terminal = pty.fork()
 if child == 0:
@@ -159,7 +159,7 @@ content gone.h5 | cmp - whole || fail "a closed terminal and a restart changed t
 
 # Killed again and again at any moment, also while it writes a frame or a checkpoint.
 # shellcheck disable=SC2086
-stopped KILL killed.chk 0.12 $chute --duration 10 --checkpoint-every 0 -o killed.h5
+stopped KILL killed.chk 0.12 $chute --duration 5 --checkpoint-every 0 -o killed.h5
 for wait in 0.13 0.07 0.21 0.18; do
   [ ! -e killed.h5 ] || break
   stopped KILL killed.chk $wait --restart killed.chk --checkpoint-every 0 -o killed.h5
@@ -171,7 +171,7 @@ content killed.h5 | cmp - whole || fail "kills and restarts changed the run"
 
 # The checkpoint before the last one, which takes over where the last one is damaged.
 # shellcheck disable=SC2086
-stopped INT old.chk 0.1 $chute --duration 10 --checkpoint-every 0 -o old.h5
+stopped INT old.chk 0.1 $chute --duration 5 --checkpoint-every 0 -o old.h5
 head -c 20000 old.chk >torn
 mv torn old.chk
 refused 3 "old.chk: is not a checkpoint, or is truncated or damaged; old_prev.chk is the previous checkpoint" \
