@@ -52,7 +52,7 @@ int rename_unless_taken(const std::string& from, const std::string& to)
 
 /// Keeps signals that end the program waiting while it exists, so that files of a moment are removed.
 class SignalsWait {
-public:
+ public:
   SignalsWait()
   {
     sigset_t all;
@@ -63,7 +63,7 @@ public:
   SignalsWait(const SignalsWait&) = delete;
   SignalsWait& operator=(const SignalsWait&) = delete;
 
-private:
+ private:
   sigset_t before_{};
 };
 

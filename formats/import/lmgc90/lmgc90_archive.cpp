@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "formats/core/errors.hpp"
-#include "formats/import/common/guarded_reading.hpp"
 #include "formats/import/common/archive.hpp"
 #include "formats/import/common/archive_files.hpp"
+#include "formats/import/common/guarded_reading.hpp"
 #include "formats/import/lmgc90/lmgc90.hpp"
 #include "formats/trajectory/hdf5.hpp"
 
