@@ -47,7 +47,9 @@
 /// A pair that had an impulse p_n in the previous step cannot approach if that step was solved
 /// exactly. An approach below `solver_error` W_nn p_n is treated as an error of the solver: it is
 /// stopped and does not rebound. Otherwise a bed at rest trembles for ever, and light grains lift
-/// a heavy one above them. A separation below `parting_error` W_nn p_n is ignored alike.
+/// a heavy one above them. A separation below `parting_error` W_nn p_n is ignored alike. After an
+/// impact p_n is not the impulse of the impact, which does not last, but at most twice the load
+/// before it and a fall of one step (Simulation::lower_guesses()).
 ///
 /// Overlap is not corrected: moving grains out of each other would add energy.
 /// docs/studies/accuracy.md compares the laws in flows and impacts.
