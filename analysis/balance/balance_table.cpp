@@ -175,8 +175,7 @@ std::string errors_over(const std::vector<double>& values)
 {
   if (values.size() == 1) return "of one window";
   return std::isnan(mean_of_windows(values).error)
-             ? fmt::format("of {} windows between which nothing moves, so that there are no errors",
-                           values.size())
+             ? fmt::format("of {} identical windows: no error can be given", values.size())
              : fmt::format("standard errors over {} windows", values.size());
 }
 

@@ -99,7 +99,7 @@ class BalanceSummary {
   std::vector<PartitionRule> rules_;
   // Largest values over species and layers, each relative to the largest term of its balance.
   double residual_ = 0;     // residual of the balance
-  double difference_ = 0;   // difference of C + beta + base under a rule from N
+  double difference_ = 0;   // |C + beta + base - N| over the rules; must be round-off
   double from_forces_ = 0;  // difference of N from the grains' stored forces less their weight
   std::vector<Forces> windows_;
 };

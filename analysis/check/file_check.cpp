@@ -125,7 +125,7 @@ void SpecificationCheck::add(std::size_t index, const Frame<D>& frame)
   for (std::size_t g = 0; g < frame.image.size(); ++g)
     if (!is_present(frame, g) && frame.image[g] != std::array<std::int32_t, D>{})
       depart("/particles/grains/image/value",
-             fmt::format("is not 0 for grain {} in frame {}, which is absent there", g, index));
+             fmt::format("grain {} is absent in frame {}: its image must be 0", g, index));
   const auto& grains = run_.grains();
   const auto& i = frame.contacts.i;
   for (std::size_t k = 0; k < i.size(); ++k)

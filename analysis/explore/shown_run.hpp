@@ -29,7 +29,8 @@ struct ShownFrame {
   /// Components of the force on i in the plane, N: along the branch (the vector from j to i), and across
   /// it, positive to the left.
   std::vector<float> along, across;
-  /// Walls that have had a contact so far, in order of their first contact; NaN if the plane misses a wall.
+  /// All walls touched up to this frame, in order of their first contact; numbers are NaN for walls that the
+  /// plane does not cut.
   std::vector<ShownWall> walls;
 };
 

@@ -52,7 +52,7 @@ enum class Kinship {
   none,         ///< different runs: other grains, or another seed
   untold,       ///< unknown, because the headers do not say
   same_grains,  ///< same grains without a seed: one run, or several from one list of radii
-  one_bed,      ///< one run, with one deposition: the same grains, or a history that continues
+  one_bed,      ///< one run: both continue one deposited bed
   same_motion,  ///< identical motion: at any time the same grains are in the same places
 };
 Kinship kinship(const RunSource& a, const RunSource& b);

@@ -52,7 +52,7 @@ std::vector<SumsRow<D>> filtered(std::vector<SumsRow<D>> rows, const RowFilter& 
 enum class Pool {
   none,
   windows,      ///< all windows and tables, separately for each layer and for the whole bed
-  composition,  ///< layers of all windows and tables in the same of ten equal bins of phi_L
+  composition,  ///< one row per tenth of phi_L, from the layers of all windows and tables
 };
 /// One row for all rows that `pool` puts together: their means, weighted by frames. `composition`
 /// leaves out empty layers and the row of the whole bed.

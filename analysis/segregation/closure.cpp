@@ -297,8 +297,8 @@ void add_rules(Report& report, const Regressions& regressions,
                         {{flux[1].value, &kept}, {kept.value, &flux[1]}, {-1, &(*tau)[1]}}));
   }
   report.summary.remarks.push_back(fmt::format(
-      "sign of c by rule: {}; it changes at p* = {:.3f}; if c < 0, the drag of the closure "
-      "pushes grains in their direction of motion",
+      "sign of the drag coefficient c by rule: {}; c is 0 at p* = {:.3f}; a negative c is "
+      "unphysical, since its drag pushes grains in their direction of motion",
       signs, zero.value));
 }
 

@@ -70,7 +70,7 @@ struct ClosurePoint {
 /// Instrumental variables of the regression (closure.hpp).
 enum class Instruments {
   previous,  ///< X and G of the window before, which the noise of this window does not change
-  same,      ///< X and G of this window: least squares
+  same,      ///< none: ordinary least squares, biased by noise in X
 };
 inline constexpr Choice<Instruments> instrument_choices[] = {
     {"previous", Instruments::previous, "driving X and gradient G of the window before"},

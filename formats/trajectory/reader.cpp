@@ -51,8 +51,8 @@ void check_presence(const StoredRun& run, std::size_t index, const Frame<D>& fra
   for (std::size_t k = 0; k < contacts.size(); ++k)
     for (const auto g : {contacts.i[k], contacts.j[k]})
       if (g >= 0 && !is_present(frame, static_cast<std::size_t>(g)))
-        run.fail(fmt::format("contact {} of frame {} names grain {}, which is absent there", k,
-                             index, g));
+        run.fail(fmt::format("contact {} of frame {} names grain {}, which is absent in this frame",
+                             k, index, g));
 }
 
 /// Throws FormatError if a number of the frame is not finite (for an absent grain: not NaN), or if

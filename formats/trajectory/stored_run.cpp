@@ -132,7 +132,8 @@ class HeadReader {
       return;
     }
     if (entries < 1 || entries > most_frames)
-      run_.fail("/grseg/contacts/offset has an impossible length");
+      run_.fail(fmt::format("/grseg/contacts/offset has {} entries; 1 to {} are possible", entries,
+                            most_frames));
     run_.offset = column<std::uint64_t>("/grseg/contacts/offset", entries);
     for (std::size_t k = 0; k < run_.offset.size(); ++k) {
       if (k == 0 ? run_.offset[k] != 0 : run_.offset[k] < run_.offset[k - 1])
@@ -173,7 +174,10 @@ class HeadReader {
     const auto count = names.dims()[0];
     const std::size_t length = H5Tget_size(Type(H5Dget_type(names.id())));
     if (count < 2 || count > most_species || length > 256)
-      run_.fail("/grseg/species/name has an impossible length");
+      run_.fail(
+          fmt::format("/grseg/species/name has {} entries of {} bytes; 2 to {} of at most 256 are "
+                      "possible",
+                      count, length, most_species));
     std::string text(length * count, '\0');
     names.read_all(Type(H5Dget_type(names.id())), text.data());
     const auto diameter = column<double>("/grseg/species/diameter", count);
@@ -210,7 +214,8 @@ class HeadReader {
     auto& grains = run_.description.grains;
     const hsize_t count = open("/particles/grains/radius", H5T_FLOAT, 1).dims()[0];
     if (count < 1 || count > most_grains)
-      run_.fail("/particles/grains/radius has an impossible length");
+      run_.fail(fmt::format("/particles/grains/radius has {} entries; 1 to {} are possible", count,
+                            most_grains));
     grains.radius = column<double>("/particles/grains/radius", count);
     grains.mass = column<double>("/particles/grains/mass", count);
     grains.id = column<std::int32_t>("/particles/grains/id", count);

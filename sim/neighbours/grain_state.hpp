@@ -18,8 +18,8 @@ namespace grseg {
 constexpr std::int32_t most_periods = 1'000'000'000;
 
 /// Centre of a sphere, m, and its radius, m (0 for the immobile body). One load reads all four,
-/// which decide whether a pair touches. Eigen aligns four doubles as the compiler's default
-/// instruction set needs it, and loads of wider sets need more.
+/// which decide whether a pair touches. AVX loads need 32 bytes;
+/// Eigen may align four doubles to 16.
 struct alignas(32) SpherePosition : Eigen::Vector4d {
   SpherePosition() = default;
   template <class Other>

@@ -38,7 +38,7 @@ class CellGrid {
   std::int32_t slices() const { return slices_; }
   double column_width() const { return column_width_; }         // m
   double slice_width() const { return 1 / slices_per_metre_; }  // m
-  /// Bodies of the columns first .. last of one strip, in a slice of a band.
+  /// Bodies in the cells (column, band, slice) with first <= column <= last; both columns are of one strip.
   Range bodies(std::int32_t first, std::int32_t last, std::int32_t band, std::int32_t slice) const
   {
     return {begin_[cell(first, band, slice)], begin_[cell(last, band, slice) + 1]};

@@ -205,7 +205,7 @@ std::string effects_left_out(const Scene& scene)
   add(gravity_of<2>(scene).norm() == 0, "gravity (none)");
   add(scene.dimension == 2 && scene.lateral == Scene::Lateral::walls,
       "periodicity (the cell has ends)");
-  add(!moves_boundaries(scene), "moving boundaries (all stand still)");
+  add(!moves_boundaries(scene), "moving boundaries (none moves)");
   return fmt::format("{}", fmt::join(all, ", "));
 }
 

@@ -13,7 +13,7 @@
 namespace grseg {
 
 /// Effects that the simulator leaves out because nothing in the scene needs them, each with the
-/// reason: "gravity (none), moving boundaries (all stand still)"; empty if the scene needs all.
+/// reason: "gravity (none), moving boundaries (none moves)"; empty if the scene needs all.
 /// Results are bitwise the same with and without (docs/studies/performance.md).
 std::string effects_left_out(const Scene& scene);
 

@@ -18,7 +18,8 @@ std::vector<std::string> unknown_columns(const DumpHeader& grains);
 /// listed in `missing`.
 class DumpGrains {
  public:
-  /// Reads the rows of the current block of `dump`, and the columns `more` (numbers from 0).
+  /// Reads the grains of the current block of `dump` into `grains`, and beside them the columns `more` of the dump
+  /// (0 is the first).
   void read(JoinedDumps& dump, ArchiveGrains& grains, const std::vector<std::size_t>& more = {});
   /// The values of column more[k] in these rows.
   const std::vector<double>& more(std::size_t k) const { return values_[own_ + k]; }

@@ -42,7 +42,7 @@ std::string likely_cause(const Imbalance& imbalance, const std::array<AxisInArch
 /// gaps), and a drag on each grain, proportional to its velocity or momentum.
 struct UnlistedForces {
   std::string sentence;
-  bool acts_as_weight = false;  // true: the forces falsify an estimate of gravity from the grains
+  bool acts_as_weight = false;  // true: a fitted gravity would absorb these forces
 };
 
 UnlistedForces unlisted_forces(const Imbalance& imbalance);

@@ -168,7 +168,7 @@ Finding by_size(const CheckSeries& series, const CheckContext& context)
         sentence + (context.masses_are_given
                         ? ": are they discs rather than spheres, or spheres rather than discs "
                           "(--grains-are)? Or do their densities differ?"
-                        : ": the archive states other masses than those of its grains"),
+                        : ": the masses of the archive do not fit its radii and forces"),
         std::abs(ratio - 1));
   if (off <= wrong / 2 && 3 * error <= wrong / 2)
     return part(Verdict::passed, sentence, std::abs(ratio - 1));

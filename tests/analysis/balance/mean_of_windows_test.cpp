@@ -24,8 +24,7 @@ TEST(MeanOfWindows, HasNoErrorWhereNothingMovesOrThereIsOneWindow)
     EXPECT_NEAR(mean_of_windows(still).mean, still[0], 1e-9);
     EXPECT_TRUE(std::isnan(mean_of_windows(still).error));
   }
-  EXPECT_EQ(errors_over({-2, -2}),
-            "of 2 windows between which nothing moves, so that there are no errors");
+  EXPECT_EQ(errors_over({-2, -2}), "of 2 identical windows: no error can be given");
   EXPECT_EQ(errors_over({0.31}), "of one window");
 }
 

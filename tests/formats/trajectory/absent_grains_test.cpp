@@ -136,7 +136,8 @@ TEST_F(AbsentGrains, AContactThatNamesOneIsRefused)
   auto frame = three_grains::frame(1);
   make_absent(frame, 1);
   write(frame);
-  EXPECT_EQ(complaint(), path + ": contact 0 of frame 1 names grain 1, which is absent there");
+  EXPECT_EQ(complaint(),
+            path + ": contact 0 of frame 1 names grain 1, which is absent in this frame");
 }
 
 TEST_F(AbsentGrains, LeaveTheBytesOfOtherRunsAlone)

@@ -308,7 +308,10 @@ TEST_F(Spheres, WithNamesOfAnImpossibleLengthAreRefused)
     H5Sclose(space);
     H5Tclose(type);
   });
-  EXPECT_EQ(complaint(), path + ": /grseg/species/name has an impossible length");
+  EXPECT_EQ(
+      complaint(),
+      path +
+          ": /grseg/species/name has 4 entries of 1000 bytes; 2 to 126 of at most 256 are possible");
 }
 
 TEST_F(Spheres, OfTwoSpeciesOfOneNameAreRefused)

@@ -235,7 +235,7 @@ TEST(Geometry, ARestartedShearCellContinuesBitwise)
 
 TEST(Effects, AreNamedWhereASceneDoesNotNeedThem)
 {
-  EXPECT_EQ(effects_left_out(scene_from({})), "moving boundaries (all stand still)");
+  EXPECT_EQ(effects_left_out(scene_from({})), "moving boundaries (none moves)");
   EXPECT_EQ(effects_left_out(scene_from({"--geometry", "shear"})), "gravity (none)");
   EXPECT_EQ(effects_left_out(scene_from({"--geometry", "drum", "--lateral", "walls", "--friction",
                                          "0", "--rotation", "off", "--restitution", "0",
