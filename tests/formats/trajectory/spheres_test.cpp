@@ -311,7 +311,7 @@ TEST_F(Spheres, WithNamesOfAnImpossibleLengthAreRefused)
   EXPECT_EQ(
       complaint(),
       path +
-          ": /grseg/species/name has 4 entries of 1000 bytes; 2 to 126 of at most 256 are possible");
+          ": /grseg/species/name has 4 entries of 1000 bytes; 2 to 65536 of at most 256 are possible");
 }
 
 TEST_F(Spheres, OfTwoSpeciesOfOneNameAreRefused)
