@@ -50,9 +50,9 @@ class Lmgc90Archive : public Archive {
       before_ = std::move(step_);
       step_ = steps_.read(at_++);
       if (step_.bodies.size() != bodies_.all.size())
-        throw FormatError(fmt::format("{} has {} bodies, but {} has {}: are they of the same run?",
-                                      step_.place, step_.bodies.size(), bodies_.path,
-                                      bodies_.all.size()));
+        throw FormatError(fmt::format(
+            "{} has {} bodies, but {} has {}: are they of the same run, and is the first complete?",
+            step_.place, step_.bodies.size(), bodies_.path, bodies_.all.size()));
     } while (with_forces_ && !follows(at_ - 1));
     if (!facts_.step) facts_.step = step_.length;
     frame = ArchiveFrame{};
@@ -71,7 +71,10 @@ class Lmgc90Archive : public Archive {
   /// True if the step before this one was written, too.
   bool follows(std::size_t k) const
   {
-    return k > 0 && steps_.numbers[k - 1] + 1 == steps_.numbers[k];
+    const auto number = [this](std::size_t n) {
+      return static_cast<std::uint64_t>(steps_.numbers[n]);  // a damaged number may be the largest
+    };
+    return k > 0 && number(k - 1) + 1 == number(k);
   }
 
   bool is_grain(std::size_t b) const
@@ -98,21 +101,21 @@ class Lmgc90Archive : public Archive {
   void add_contact(const Lmgc90Step::Pair& pair, ArchiveContacts& contacts) const
   {
     if (pair.force.isZero() && pair.gap > 0) return;  // a pair that is only near
-    const auto is_body = [&](std::int64_t number) {
-      return number >= 1 && static_cast<std::size_t>(number) <= bodies_.all.size();
+    const auto fail = [&](const std::string& why) {
+      throw FormatError(fmt::format("{}: the contact of bodies {} and {} {}", step_.place,
+                                    pair.candidate, pair.antagonist, why));
     };
-    const auto i = static_cast<std::size_t>(pair.candidate - 1),
-               j = static_cast<std::size_t>(pair.antagonist - 1);
-    const bool known = is_body(pair.candidate) && is_body(pair.antagonist);
+    const auto i = static_cast<std::size_t>(pair.candidate) - 1,
+               j = static_cast<std::size_t>(pair.antagonist) - 1;  // huge if it was not positive
+    const bool known = std::max(i, j) < bodies_.all.size();
     const bool at_wall = known && bodies_.all[j].radius == 0;
     if (!known || !is_grain(i) || (!at_wall && !is_grain(j)) || pair.contactor < 1 ||
         pair.contactor > bodies_.all[j].contactors)
-      throw FormatError(fmt::format(
-          "{}: the contact of bodies {} and {} is not one of a grain and a grain or wall of {}",
-          step_.place, pair.candidate, pair.antagonist, bodies_.path));
+      fail("is not one of a grain and a grain or wall of " + bodies_.path);
+    if (std::abs(pair.normal.norm() - 1) > 1e-3) fail("has a normal whose length is not 1");
     const auto wall = bodies_.all[j].first_wall + static_cast<std::int32_t>(pair.contactor) - 1;
     contacts.add(pair.candidate, pair.antagonist, at_wall ? wall : -1, pair.force,
-                 at_wall ? Vec3(pair.normal.normalized() * (bodies_.all[i].radius + pair.gap))
+                 at_wall ? Vec3(pair.normal * (bodies_.all[i].radius + pair.gap))
                          : Vec3::Constant(std::nan("")),
                  -pair.gap);
   }
