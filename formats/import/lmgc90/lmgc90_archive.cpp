@@ -33,15 +33,13 @@ class Lmgc90Archive : public Archive {
     for (std::size_t k = 0; k < count; ++k) following += follows(k) ? 1 : 0;
     with_forces_ = bodies_.know_masses && 2 * following >= count;
     if (with_forces_ && following < count)
-      remark_ = fmt::format("steps are left out if the step before was not written: {} of {}",
-                            count - following, count);
+      remarks_.push_back(
+          fmt::format("steps are left out if the step before was not written: {} of {}",
+                      count - following, count));
   }
 
   const ArchiveFacts& facts() const override { return facts_; }
-  std::vector<std::string> remarks() const override
-  {
-    return remark_.empty() ? std::vector<std::string>{} : std::vector{remark_};
-  }
+  std::vector<std::string> remarks() const override { return remarks_; }
 
   bool next(ArchiveFrame& frame) override
   {
@@ -71,10 +69,8 @@ class Lmgc90Archive : public Archive {
   /// True if the step before this one was written, too.
   bool follows(std::size_t k) const
   {
-    const auto number = [this](std::size_t n) {
-      return static_cast<std::uint64_t>(steps_.numbers[n]);  // a damaged number may be the largest
-    };
-    return k > 0 && number(k - 1) + 1 == number(k);
+    const auto& numbers = steps_.numbers;
+    return k > 0 && numbers[k] > 0 && numbers[k] - 1 == numbers[k - 1];
   }
 
   bool is_grain(std::size_t b) const
@@ -123,7 +119,7 @@ class Lmgc90Archive : public Archive {
   Lmgc90Bodies bodies_;
   Lmgc90Steps steps_;
   ArchiveFacts facts_;
-  std::string remark_;
+  std::vector<std::string> remarks_;
   bool with_forces_ = false;  // true: only steps are read of which the step before is known
   std::size_t at_ = 0;
   Lmgc90Step step_, before_;

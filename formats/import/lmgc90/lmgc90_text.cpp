@@ -3,6 +3,7 @@
 #include "formats/import/lmgc90/lmgc90.hpp"
 #include "formats/import/lmgc90/lmgc90_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -118,11 +119,8 @@ Lmgc90Step read_step(const std::string& path, double length)
   step.place = path;
   const int dimension = read_bodies(bodies, step);
   auto name = std::filesystem::path(path).filename().string();
-  const auto dof = name.rfind("DOF");
-  if (dof == std::string::npos)
-    throw UsageError(path + ": its name needs DOF, which is Vloc_Rloc in the name of the contacts");
-  TextSource pairs(
-      {std::filesystem::path(path).replace_filename(name.replace(dof, 3, "Vloc_Rloc")).string()});
+  name.replace(std::min(name.rfind("DOF"), name.size()), 3, "Vloc_Rloc");
+  TextSource pairs({std::filesystem::path(path).replace_filename(name).string()});
   if (const auto number = read_head(pairs).number; number != head.number)
     pairs.fail(fmt::format("this is step {}, but {} has step {}", number, path, head.number));
   read_pairs(dimension, pairs, step);
