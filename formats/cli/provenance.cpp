@@ -151,6 +151,7 @@ Header verification_lines(const TrajectoryReader& run)
   add_lines(lines, "coordinates", run, "import_coordinates");
   add_lines(lines, "undecided", run, "import_undecided");
   add_lines(lines, "waived", run, "import_waived");
+  add_lines(lines, "remarks", run, "import_remarks");
   return lines;
 }
 

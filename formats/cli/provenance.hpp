@@ -66,7 +66,7 @@ struct TrustOption {
 };
 
 /// Header lines on the reliability of `run`: "verified"; "incomplete" if the run had not ended; for
-/// an import also "cell", "undecided" and "waived".
+/// an import also "cell", "coordinates", "undecided", "waived" and "remarks".
 Header verification_lines(const TrajectoryReader& run);
 
 }  // namespace grseg

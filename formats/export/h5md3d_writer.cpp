@@ -41,8 +41,9 @@ class H5md3dWriter : public RunWriter {
         edges_{cell.length(0), 0, 0, 0, cell.length(1), 0, 0, 0, cell.length(2)}
   {
     silence();
-    file_ =
-        File(H5Fcreate(output_.temporary().c_str(), H5F_ACC_TRUNC, without_time(), H5P_DEFAULT));
+    const Properties access(H5Pcreate(H5P_FILE_ACCESS));
+    H5Pset_file_locking(access, false, true);  // many file systems of clusters have no locks
+    file_ = File(H5Fcreate(output_.temporary().c_str(), H5F_ACC_TRUNC, without_time(), access));
     if (!file_.valid())
       throw RunError(fmt::format("cannot create {}: {}", path_, reason_of_failure()));
     h5md::write_root(file_);

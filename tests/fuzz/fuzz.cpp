@@ -2,6 +2,7 @@
 #include "tests/fuzz/fuzz.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -29,9 +30,10 @@ std::vector<std::string_view> parts_of(std::string_view text)
 }
 
 ScratchFile::ScratchFile(const std::string& name)
-    : path_("/dev/shm/grseg-fuzz." + std::to_string(getpid()) + "." + name),
-      file_(open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600))
+    : folder_("/dev/shm/grseg-fuzz." + std::to_string(getpid())), path_(folder_ + "/" + name)
 {
+  mkdir(folder_.c_str(), 0700);
+  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   require(file_ >= 0, "/dev/shm can be written");
 }
 
@@ -39,6 +41,7 @@ ScratchFile::~ScratchFile()
 {
   close(file_);
   unlink(path_.c_str());
+  rmdir(folder_.c_str());  // succeeds when the last file is gone
 }
 
 void ScratchFile::write(std::string_view bytes)

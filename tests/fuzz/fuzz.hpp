@@ -35,7 +35,7 @@ void require(bool holds, const char* promise);
 /// Parts of one input that represents several files; lines "=====" separate the parts.
 std::vector<std::string_view> parts_of(std::string_view text);
 
-/// A file in memory that is written again for each input.
+/// A file in memory, in a folder of this process, that is written again for each input.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& name);
@@ -47,7 +47,7 @@ class ScratchFile {
   const std::string& path() const { return path_; }
 
  private:
-  std::string path_;
+  std::string folder_, path_;
   int file_ = -1;
 };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Imports an archive of another program frame by frame, without writing a file. The parts of an
-// input: words of the command line, grains, contacts, restart file.
+// input: words of the command line, grains, contacts, restart file; of LMGC90 also BULK_BEHAV.DAT and
+// DRV_DOF.DAT.
 #include "formats/core/frame.hpp"
 #include "formats/import/convert/verified_frames.hpp"
 #include "formats/import/facts/import_settings.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
+#include <array>
 #include <map>
 #include <sstream>
 
@@ -52,16 +54,17 @@ const ImportSettings& known_settings(std::string_view words)
 
 void import(const std::vector<std::string_view>& parts)
 {
-  static fuzz::ScratchFile grains("grains"), contacts("contacts"), restart("restart");
+  // The names are those by which LMGC90's files are found beside others.
+  static std::array<fuzz::ScratchFile, 5> files{
+      fuzz::ScratchFile("DOF"), fuzz::ScratchFile("Vloc_Rloc"), fuzz::ScratchFile("BODIES.DAT"),
+      fuzz::ScratchFile("BULK_BEHAV.DAT"), fuzz::ScratchFile("DRV_DOF.DAT")};
   auto settings = known_settings(parts[0]);
   settings.format = FUZZED_FORMAT;
-  const auto part = [&](std::size_t k) { return k < parts.size() ? parts[k] : ""; };
-  grains.write(part(1));
-  contacts.write(part(2));
-  restart.write(part(3));
-  settings.files.grains = {grains.path()};
-  if (parts.size() > 2) settings.files.contacts = {contacts.path()};
-  if (parts.size() > 3) settings.files.restart = restart.path();
+  for (std::size_t k = 0; k < files.size(); ++k)
+    files[k].write(k + 1 < parts.size() ? parts[k + 1] : "");
+  settings.files.grains = {files[0].path()};
+  if (parts.size() > 2 && settings.format != "lmgc90") settings.files.contacts = {files[1].path()};
+  if (parts.size() > 3) settings.files.restart = files[2].path();
   VerifiedFrames frames(ScannedArchive(settings), settings);
   for (Frame<3> frame; frames.next(frame);)
     if (!frames.complaint()) require_a_whole_frame(frame, frames.bed().grains);

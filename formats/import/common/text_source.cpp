@@ -18,10 +18,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <span>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace grseg {
@@ -90,7 +92,9 @@ std::unique_ptr<Stream> open_unpacked(const std::string& file)
   require_seekable(file);
   auto stream = std::make_unique<Stream>();
   push_unpacking(file, *stream);
-  stream->push(io::file_source(file, std::ios::binary), filter_buffer);
+  const io::file_source source(file, std::ios::binary);
+  if (!source.is_open()) throw RunError(file + ": cannot be opened: " + reason(errno));
+  stream->push(source, filter_buffer);
   return stream;
 }
 
@@ -102,6 +106,9 @@ std::size_t read_from(std::streambuf& stream, std::span<char> to, const std::str
   try {
     return static_cast<std::size_t>(stream.sgetn(to.data(), std::ssize(to)));
   } catch (const std::exception& error) {
+    const auto* system = dynamic_cast<const std::system_error*>(&error);
+    if (system != nullptr && system->code().category() != std::iostream_category())
+      throw RunError(fmt::format("{}: cannot be read: {}", file, reason(system->code().value())));
     throw FormatError(fmt::format(
         "{}, after line {}: the compressed data is damaged or truncated ({}); copy the file again",
         file, lines_before, error.what()));

@@ -33,15 +33,13 @@ class Lmgc90Archive : public Archive {
     for (std::size_t k = 0; k < count; ++k) following += follows(k) ? 1 : 0;
     with_forces_ = bodies_.know_masses && 2 * following >= count;
     if (with_forces_ && following < count)
-      remark_ = fmt::format("steps are left out if the step before was not written: {} of {}",
-                            count - following, count);
+      remarks_.push_back(
+          fmt::format("steps are left out if the step before was not written: {} of {}",
+                      count - following, count));
   }
 
   const ArchiveFacts& facts() const override { return facts_; }
-  std::vector<std::string> remarks() const override
-  {
-    return remark_.empty() ? std::vector<std::string>{} : std::vector{remark_};
-  }
+  std::vector<std::string> remarks() const override { return remarks_; }
 
   bool next(ArchiveFrame& frame) override
   {
@@ -50,9 +48,9 @@ class Lmgc90Archive : public Archive {
       before_ = std::move(step_);
       step_ = steps_.read(at_++);
       if (step_.bodies.size() != bodies_.all.size())
-        throw FormatError(fmt::format("{} has {} bodies, but {} has {}: are they of the same run?",
-                                      step_.place, step_.bodies.size(), bodies_.path,
-                                      bodies_.all.size()));
+        throw FormatError(fmt::format(
+            "{} has {} bodies, but {} has {}: are they of the same run, and is the first complete?",
+            step_.place, step_.bodies.size(), bodies_.path, bodies_.all.size()));
     } while (with_forces_ && !follows(at_ - 1));
     if (!facts_.step) facts_.step = step_.length;
     frame = ArchiveFrame{};
@@ -71,7 +69,8 @@ class Lmgc90Archive : public Archive {
   /// True if the step before this one was written, too.
   bool follows(std::size_t k) const
   {
-    return k > 0 && steps_.numbers[k - 1] + 1 == steps_.numbers[k];
+    const auto& numbers = steps_.numbers;
+    return k > 0 && numbers[k] > 0 && numbers[k] - 1 == numbers[k - 1];
   }
 
   bool is_grain(std::size_t b) const
@@ -98,21 +97,21 @@ class Lmgc90Archive : public Archive {
   void add_contact(const Lmgc90Step::Pair& pair, ArchiveContacts& contacts) const
   {
     if (pair.force.isZero() && pair.gap > 0) return;  // a pair that is only near
-    const auto is_body = [&](std::int64_t number) {
-      return number >= 1 && static_cast<std::size_t>(number) <= bodies_.all.size();
+    const auto fail = [&](const std::string& why) {
+      throw FormatError(fmt::format("{}: the contact of bodies {} and {} {}", step_.place,
+                                    pair.candidate, pair.antagonist, why));
     };
-    const auto i = static_cast<std::size_t>(pair.candidate - 1),
-               j = static_cast<std::size_t>(pair.antagonist - 1);
-    const bool known = is_body(pair.candidate) && is_body(pair.antagonist);
+    const auto i = static_cast<std::size_t>(pair.candidate) - 1,
+               j = static_cast<std::size_t>(pair.antagonist) - 1;  // huge if it was not positive
+    const bool known = std::max(i, j) < bodies_.all.size();
     const bool at_wall = known && bodies_.all[j].radius == 0;
     if (!known || !is_grain(i) || (!at_wall && !is_grain(j)) || pair.contactor < 1 ||
         pair.contactor > bodies_.all[j].contactors)
-      throw FormatError(fmt::format(
-          "{}: the contact of bodies {} and {} is not one of a grain and a grain or wall of {}",
-          step_.place, pair.candidate, pair.antagonist, bodies_.path));
+      fail("is not one of a grain and a grain or wall of " + bodies_.path);
+    if (std::abs(pair.normal.norm() - 1) > 1e-3) fail("has a normal whose length is not 1");
     const auto wall = bodies_.all[j].first_wall + static_cast<std::int32_t>(pair.contactor) - 1;
     contacts.add(pair.candidate, pair.antagonist, at_wall ? wall : -1, pair.force,
-                 at_wall ? Vec3(pair.normal.normalized() * (bodies_.all[i].radius + pair.gap))
+                 at_wall ? Vec3(pair.normal * (bodies_.all[i].radius + pair.gap))
                          : Vec3::Constant(std::nan("")),
                  -pair.gap);
   }
@@ -120,7 +119,7 @@ class Lmgc90Archive : public Archive {
   Lmgc90Bodies bodies_;
   Lmgc90Steps steps_;
   ArchiveFacts facts_;
-  std::string remark_;
+  std::vector<std::string> remarks_;
   bool with_forces_ = false;  // true: only steps are read of which the step before is known
   std::size_t at_ = 0;
   Lmgc90Step step_, before_;

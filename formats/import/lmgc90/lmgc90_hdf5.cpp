@@ -39,6 +39,7 @@ class Lmgc90Hdf5 {
         moreau)
       fail("the integrator is not MOREAU: this is not a run of contact dynamics");
     theta_ = number(is_new ? "/Simulation/MecaIntegParam" : "/Simulation/Theta", H5T_FLOAT);
+    if (theta_ < 0 || theta_ > 1) fail("theta of the integrator is not between 0 and 1");
     steps_ = names_in(file_, "/Evolution");
     std::sort(steps_.begin(), steps_.end(), natural_less);
   }

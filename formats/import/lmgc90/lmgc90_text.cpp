@@ -3,6 +3,7 @@
 #include "formats/import/lmgc90/lmgc90.hpp"
 #include "formats/import/lmgc90/lmgc90_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -88,12 +89,14 @@ void complete(int dimension, double length, const Lmgc90Fields& fields, const Te
 void read_pairs(int dimension, TextSource& text, Lmgc90Step& step)
 {
   Lmgc90Fields fields;
+  std::size_t begun = 0;
   const auto finish = [&] {
     if (!step.pairs.empty()) complete(dimension, step.length, fields, text, step.pairs.back());
     fields.clear();
   };
   while (text.next()) {
     const auto words = words_of(text.line());
+    if (!words.empty() && words[0] == "$icdan") ++begun;
     if (words.size() > 8 && words[0].starts_with("RBDY")) {
       finish();
       step.pairs.push_back(pair_of(words, text));
@@ -101,6 +104,9 @@ void read_pairs(int dimension, TextSource& text, Lmgc90Step& step)
     fields.read(text.line());
   }
   finish();
+  if (begun != step.pairs.size())
+    text.fail(fmt::format("{} contacts begin ('$icdan'), but {} have a line with their bodies",
+                          begun, step.pairs.size()));
 }
 
 Lmgc90Step read_step(const std::string& path, double length)
@@ -113,7 +119,7 @@ Lmgc90Step read_step(const std::string& path, double length)
   step.place = path;
   const int dimension = read_bodies(bodies, step);
   auto name = std::filesystem::path(path).filename().string();
-  name.replace(0, name.starts_with("DOF") ? 3 : 0, "Vloc_Rloc");
+  name.replace(std::min(name.rfind("DOF"), name.size()), 3, "Vloc_Rloc");
   TextSource pairs({std::filesystem::path(path).replace_filename(name).string()});
   if (const auto number = read_head(pairs).number; number != head.number)
     pairs.fail(fmt::format("this is step {}, but {} has step {}", number, path, head.number));
@@ -133,7 +139,8 @@ Lmgc90Steps open_lmgc90_texts(const std::vector<std::string>& paths)
     if (paths.size() > 1 && steps.numbers.empty()) first = last;
     steps.numbers.push_back(last.number);
   }
-  const double length = (last.time - first.time) / static_cast<double>(last.number - first.number);
+  const double length = (last.time - first.time) /
+                        (static_cast<double>(last.number) - static_cast<double>(first.number));
   if (!(length > 0) || !std::isfinite(length))
     throw FormatError(paths.back() +
                       ": numbers and times of the steps do not tell the length of a step");

@@ -153,6 +153,27 @@ TEST_F(ChangedLmgc90, DamageIsNamedWithItsPlace)
   EXPECT_TRUE(mentions(complaint(), "--restart BODIES.DAT"));
 }
 
+TEST_F(ChangedLmgc90, ContactWithDamagedLinesIsRefused)
+{
+  const std::string bodies = " RBDY2      3  DISKx", normal = "n(1)= 0.0000000D+00";
+  replace("OUTBOX/Vloc_Rloc.OUT.2", bodies, " SBDY2      3  DISKx");
+  EXPECT_TRUE(mentions(complaint(), "3 contacts begin ('$icdan'), but 2 have a line"));
+  replace("OUTBOX/Vloc_Rloc.OUT.2", " SBDY2", " RBDY2");
+  replace("OUTBOX/Vloc_Rloc.OUT.2", normal, "n(1)= 0.1000000D+01");
+  EXPECT_TRUE(
+      mentions(complaint(), "contact of bodies 3 and 2 has a normal whose length is not 1"));
+  replace("OUTBOX/Vloc_Rloc.OUT.2", "n(1)= 0.1000000D+01", normal);
+  for (const char* number : {"-9223372036854775808", "9223372036854775807", "0"}) {
+    replace("OUTBOX/Vloc_Rloc.OUT.2", bodies, fmt::format(" RBDY2  {}  DISKx", number));
+    EXPECT_TRUE(mentions(complaint(), "is not one of a grain and a grain or wall of")) << number;
+    replace("OUTBOX/Vloc_Rloc.OUT.2", fmt::format(" RBDY2  {}  DISKx", number), bodies);
+  }
+  fs::rename(run + "/OUTBOX/DOF.OUT.2", run + "/OUTBOX/other");
+  ArchiveFiles files;
+  files.grains = {run + "/OUTBOX/other"};
+  EXPECT_THROW(all_of(*lmgc90_format.open(files)), UsageError);
+}
+
 TEST_F(ChangedLmgc90, MassesAreAskedForWithoutDensities)
 {
   fs::remove(run + "/DATBOX/BULK_BEHAV.DAT");
