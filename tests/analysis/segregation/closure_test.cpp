@@ -209,7 +209,7 @@ TEST(SegregationClosure, CIsBOverTheFluxAndChangesItsSignAtPStar)
   }
   EXPECT_GT(number_of(summary, "c@uniform:0.8[1/s]").low, 0);
   EXPECT_LT(number_of(summary, "c@half[1/s]").high, 0);
-  EXPECT_TRUE(remarks_hold(summary, "uniform:0.8 +, half -; it changes at p* = 0.667"));
+  EXPECT_TRUE(remarks_hold(summary, "uniform:0.8 +, half -; c is 0 at p* = 0.667"));
 }
 
 // K' = rho T' and psi_K = phi_L (1 + B_K phi_S): k_push = -B_K T' phi_L phi_S; the driving force is

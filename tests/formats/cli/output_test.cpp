@@ -2,6 +2,7 @@
 #include "formats/cli/output.hpp"
 
 #include "formats/core/errors.hpp"
+#include "formats/core/files.hpp"
 #include "tests/folder.hpp"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,24 @@ TEST_F(TableOutput, IsCheckedAgainstEveryInputBeforeWorkBegins)
   EXPECT_NO_THROW((OutputOptions{path("c.tsv")}.check(values)));
   EXPECT_NO_THROW((OutputOptions{"-"}.check(values)));
   EXPECT_NO_THROW((OutputOptions{"/dev/null"}.check(values)));
+}
+
+// Containers repeat process ids, so a file of a killed process may have the name of this one's.
+TEST_F(TableOutput, InPiecesContinuesNoFileThatAKilledProcessLeft)
+{
+  put(std::filesystem::path(temporary_path(path("t.tsv"))).filename().string(), "junk\n");
+  EXPECT_THROW(GrowingTable({path("t.tsv")}), RunError);
+  remove_temporaries(path("t.tsv"));
+  Table table;
+  table.columns = {"a"};
+  table.rows = {{1}, {2}};
+  GrowingTable growing({path("t.tsv")});
+  growing.add(table);
+  table.rows = {{3}};
+  growing.finish(table);
+  EXPECT_EQ(names(), std::set<std::string>{"t.tsv"});
+  const auto whole = Table::read(path("t.tsv"));
+  EXPECT_EQ(whole.rows, (std::vector<std::vector<double>>{{1}, {2}, {3}}));
 }
 
 }  // namespace

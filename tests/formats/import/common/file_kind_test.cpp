@@ -9,6 +9,7 @@
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace grseg {
 namespace {
@@ -148,6 +149,19 @@ TEST(FileKind, IsRecognisedInsideACompressedFileToo)
                        "is a tar archive: unpack it"));
   EXPECT_TRUE(mentions(complaint_about(folder.write("a.gz.gz", packed(packed("ITEM: TIMESTEP\n")))),
                        "is packed twice: unpack it once"));
+}
+
+TEST(FileKind, AFileThatCanBeReadOnlyOnceIsRefused)
+{
+  const lammps_text::Folder folder;
+  const auto path = folder / "pipe.dump";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  try {
+    refuse_other_kind(path);
+    FAIL() << "a pipe was taken";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(mentions(error.what(), "is a pipe or a device, which can be read only once"));
+  }
 }
 
 }  // namespace

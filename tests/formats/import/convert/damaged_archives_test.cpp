@@ -105,6 +105,13 @@ TEST_F(DamagedArchive, WithoutABase)
   expect_refusal("no base", exit_usage, "no grain belongs to the base (types 3)");
 }
 
+TEST_F(DamagedArchive, IdsOfSixDigits)
+{
+  for (const char* id : {"\n7 ", "\n4 "})
+    while (grains.find(id) != std::string::npos) replace(grains, id, "\n1.23457e+06 ");
+  expect_refusal("two ids as %g writes them", exit_content, "was it written with six digits");
+}
+
 TEST_F(DamagedArchive, HugeNumberOfRows)
 {
   replace(grains, "NUMBER OF ATOMS\n3", "NUMBER OF ATOMS\n2000000000");
