@@ -52,7 +52,7 @@ TEST(FileKind, IsRecognisedByTheFirstBytes)
       {"<?xml version=\"1.0\"?>\n<Xdmf>\n", "an XML file"},
       {"---\ncreator: LAMMPS\ntimestep: 0\n", "a YAML file"},
       {"[{\"id\": 1}]", "a JSON file"},
-      {std::string(257, '\0') + "ustar", "a tar archive"},
+      {std::string(257, '\0').append("ustar"), "a tar archive"},
       {"GiD Post Results File 1.0\n\nResult", "a file of GiD, as Kratos writes it: write its"},
       {"MESH \"Kratos_Mesh\" dimension 3", "a file of GiD"},
       {"Begin ModelPartData\nEnd ModelPartData\n", "a model of Kratos (mdpa)"},
