@@ -69,7 +69,7 @@ int status_of_child(const sigset_t& mask)
 {
   if (!WIFSIGNALED(status)) _exit(WEXITSTATUS(status));
   const int signal = WTERMSIG(status);
-  if (!output.empty()) remove_temporaries(output);
+  if (!output.empty()) remove_temporaries(behind_links(output));
   if (signal == SIGKILL) {
     fmt::print(stderr, "{}: the process that imports was killed; is memory short?\n", program);
     _exit(exit_trouble);
